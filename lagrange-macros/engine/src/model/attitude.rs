@@ -12,9 +12,10 @@
 //! (Whittaker, Analytical Dynamics, 1904, §§9–16.) With T = ½ Σ Iₖ Ωₖ² the 4 × 4 mass matrix is singular along q
 //! itself; together with the unit constraint the equations are regular.
 
-use super::elaborate::{Elaboration, item_name};
-use super::names::{Entry, Kind, Meaning};
-use super::reach::{Context, Depth};
+use super::depth::{Context, Depth};
+use super::elaborate::item_name;
+use super::elaboration::Elaboration;
+use super::meaning::{Entry, Kind, Meaning};
 use super::value::{Value, cross, dot};
 use super::{Body, Constraint, Level, System};
 use crate::ast::{self, Expr, ExprKind, Head, Name};

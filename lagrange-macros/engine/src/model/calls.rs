@@ -1,8 +1,8 @@
 //! Calls: `der`, functions of a number, functions of lists, and what only outputs have.
 
-use super::elaborate::Elaboration;
-use super::names::Kind;
-use super::reach::{Context, Depth, Reach};
+use super::depth::{Context, Depth, Reach};
+use super::elaboration::Elaboration;
+use super::meaning::Kind;
 use super::value::{Value, area, cross, dot, norm};
 use crate::ast::{Expr, ModeWord, Name};
 use crate::diagnostics::{Code, nearest};

@@ -2,9 +2,9 @@
 //!
 //! They are read when everything has been derived, so that they cannot change what is derived.
 
-use super::elaborate::{Elaboration, Scope};
-use super::names::{Kind, Meaning};
-use super::reach::{Context, Depth, Reach};
+use super::depth::{Context, Depth, Reach};
+use super::elaboration::{Elaboration, Scope};
+use super::meaning::{Kind, Meaning};
 use super::{Branch, Condition, ItemName, System};
 use crate::ast::{self, Claim, Declaration, ItemKind, ModeWord, Reference};
 use crate::diagnostics::{Code, Diagnostics, Extent};

@@ -1,8 +1,8 @@
 //! Equality constraints: position level without velocities, else velocity level and linear in them.
 
-use super::elaborate::Elaboration;
-use super::names::Kind;
-use super::reach::{Context, Depth, Reach};
+use super::depth::{Context, Depth, Reach};
+use super::elaboration::Elaboration;
+use super::meaning::Kind;
 use super::value::Value;
 use super::{Constraint, Level};
 use crate::ast;

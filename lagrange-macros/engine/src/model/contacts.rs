@@ -4,8 +4,8 @@
 //! gradient ∂gap/∂p: n = (J Jᵀ)⁻¹ J aᵀ, and N = λ|n|. The point is the one relative to the body that it touches (in
 //! space where that does not move); other points are refused, since n would have no meaning.
 
-use super::elaborate::Elaboration;
-use super::reach::{Context, Depth, Reach};
+use super::depth::{Context, Depth, Reach};
+use super::elaboration::Elaboration;
 use super::value::{Value, area, cross, dot, norm};
 use super::{Contact, Restitution};
 use crate::ast;

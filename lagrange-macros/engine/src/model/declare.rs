@@ -1,9 +1,10 @@
 //! Fields and coordinates become symbols, and every other name is entered, so that items may use names that are
 //! declared later.
 
-use super::elaborate::{Elaboration, Pending, item_name};
-use super::names::{Kind, Meaning};
-use super::reach::{Context, Depth, Reach};
+use super::depth::{Context, Depth, Reach};
+use super::elaborate::item_name;
+use super::elaboration::{Elaboration, Pending};
+use super::meaning::{Kind, Meaning};
 use super::value::Value;
 use super::{Coordinate, ItemName, Parameter};
 use crate::ast::{self, Declaration, Expr, Field, Head, ItemKind, Name, Observe, Reference};

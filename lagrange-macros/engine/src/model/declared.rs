@@ -4,9 +4,9 @@
 //! a gap by the point that it acts at, and the canonical form that the pool gives to sums and products.
 
 use super::System;
+use super::depth::Depth;
 use super::draws::drawn;
-use super::elaborate::Elaboration;
-use super::reach::Depth;
+use super::elaboration::Elaboration;
 use crate::ast::Declaration;
 use crate::diagnostics::Diagnostics;
 use crate::sorted::SortedMap;

@@ -1,8 +1,8 @@
 //! Values of the parameters that a file declares: numbers, written as expressions.
 
 use super::System;
-use super::elaborate::Elaboration;
-use super::reach::{Context, Reach};
+use super::depth::{Context, Reach};
+use super::elaboration::Elaboration;
 use super::value::Value;
 use crate::ast::{Declaration, Expr, ExprKind};
 use crate::diagnostics::{Code, Diagnostics};

@@ -1,6 +1,6 @@
 //! The degree of an expression in some symbols: by form where that is enough, else by derivatives.
 
-use super::elaborate::Elaboration;
+use super::elaboration::Elaboration;
 use crate::symbolic::{ExprId, Node, Pool, Symbol};
 
 /// The degree by form: an upper bound, since what cancels is not seen. `None`: not a polynomial in the symbols.

@@ -3,9 +3,10 @@
 //! A force f(λ) that is linear in the multipliers is Σ λᵢ ∂f/∂λᵢ + f(0): the parts give the arrow of an impulse as well, whose
 //! multipliers are others.
 
-use super::elaborate::{Elaboration, item_name};
-use super::names::Kind;
-use super::reach::{Context, Depth, Reach};
+use super::depth::{Context, Depth, Reach};
+use super::elaborate::item_name;
+use super::elaboration::Elaboration;
+use super::meaning::Kind;
 use super::value::Value;
 use super::{System, Worked};
 use crate::ast::{self, Declaration, Detail, Expr, ExprKind, Form, ItemKind};

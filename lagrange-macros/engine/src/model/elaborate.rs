@@ -2,71 +2,16 @@
 //!
 //! A name that fails to get a meaning is poisoned: uses of it are silent, since the cause has been reported.
 
-use super::names::{Kind, Meaning, Names};
-use super::reach::{Context, Depth, Reach};
+use super::depth::{Depth, Reach};
+use super::elaboration::{Elaboration, Pending, Scope};
+use super::meaning::{Kind, Meaning, Names};
 use super::value::Value;
 use super::{ItemName, System};
-use crate::ast::{Declaration, Expr, Head, Home, Item, ItemKind, Name};
+use crate::ast::{Declaration, Head, Item, ItemKind, Name};
 use crate::diagnostics::{Code, Diagnostics};
 use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Pool, Symbol};
 use proc_macro2::Span;
-
-/// A system on its way.
-pub(super) struct Elaboration<'a> {
-    pub system: System,
-    pub sink: &'a mut Diagnostics,
-    pub names: Names,
-    /// Names by the constant that they become.
-    pub handles: SortedMap<String, String>,
-    /// Bound indices, innermost last.
-    pub indices: Vec<(String, i64)>,
-    /// What `slip` stands for: the slip of the friction whose coefficients are read.
-    pub slip: Option<Value>,
-    /// Branches by their guards.
-    pub branches: SortedMap<ExprId, usize>,
-    /// Kind of each symbol, by its index.
-    pub depths: Vec<Depth>,
-    /// q → v, v → v̇, t → 1.
-    pub directions: Vec<(Symbol, ExprId)>,
-    /// Expressions under `der`, and the symbols that stand for their rates; `None` where rates are worked out.
-    pub rates: Option<SortedMap<ExprId, Symbol>>,
-    /// What `define` and `observe` name.
-    pub definitions: Vec<Pending>,
-    /// First coordinate of each name, and the length of an array.
-    pub coordinate_names: SortedMap<String, (usize, Option<usize>)>,
-    /// First coordinate of each body of `attitude`.
-    pub bodies: SortedMap<String, usize>,
-    /// Whether the rates of those bodies are velocities, in place of those of their quaternions.
-    pub in_body_rates: bool,
-    /// Whether something could not be read; the sink says why.
-    pub dropped: bool,
-    /// Whether an exact number that did not fit has been reported.
-    pub overflowed: bool,
-    /// Elements that arrays, sums and indexed items have been unrolled to.
-    pub unrolled: i64,
-    /// Where the declaration stands, for messages.
-    pub home: Home,
-}
-
-/// A definition or output.
-#[derive(Clone)]
-pub(super) struct Pending {
-    pub head: Head,
-    pub value: Expr,
-    pub context: Context,
-}
-
-/// What the names of a declaration mean, kept for what is read once everything is derived.
-pub struct Scope {
-    names: Names,
-    depths: Vec<Depth>,
-    directions: Vec<(Symbol, ExprId)>,
-    definitions: Vec<Pending>,
-    coordinate_names: SortedMap<String, (usize, Option<usize>)>,
-    bodies: SortedMap<String, usize>,
-    home: Home,
-}
 
 /// Resolves all names of a declaration; mistakes go to the sink.
 pub fn system(declaration: &Declaration, sink: &mut Diagnostics) -> Option<System> {
@@ -197,46 +142,6 @@ impl<'a> Elaboration<'a> {
                 self.definitions_all(|_, _| true);
             }
         }
-    }
-
-    /// Goes on with a system that has been closed.
-    pub fn reopen(system: System, scope: Scope, sink: &'a mut Diagnostics) -> Elaboration<'a> {
-        Elaboration {
-            overflowed: system.pool.overflowed(),
-            branches: (system.branches.iter().map(|branch| branch.guard))
-                .zip(0..)
-                .collect(),
-            system,
-            sink,
-            names: scope.names,
-            handles: SortedMap::new(),
-            indices: Vec::new(),
-            slip: None,
-            depths: scope.depths,
-            directions: scope.directions,
-            rates: None,
-            definitions: scope.definitions,
-            coordinate_names: scope.coordinate_names,
-            bodies: scope.bodies,
-            in_body_rates: false,
-            dropped: false,
-            unrolled: 0,
-            home: scope.home,
-        }
-    }
-
-    /// The system, and what its names mean.
-    pub fn close(self) -> (System, Scope) {
-        let scope = Scope {
-            names: self.names,
-            depths: self.depths,
-            directions: self.directions,
-            definitions: self.definitions,
-            coordinate_names: self.coordinate_names,
-            bodies: self.bodies,
-            home: self.home,
-        };
-        (self.system, scope)
     }
 
     /// A new symbol of this kind.

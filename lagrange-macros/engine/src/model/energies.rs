@@ -1,8 +1,8 @@
 //! Kinetic and potential energies, or a Lagrangian split at v = 0: V = −L(q, 0, t), T = L + V.
 
-use super::elaborate::Elaboration;
-use super::names::Kind;
-use super::reach::{Context, Depth, Reach};
+use super::depth::{Context, Depth, Reach};
+use super::elaboration::Elaboration;
+use super::meaning::Kind;
 use super::{EnergyTerm, ItemName};
 use crate::ast::{Declaration, Energy, Expr, ItemKind, Name};
 use crate::diagnostics::Code;

@@ -1,7 +1,7 @@
 //! Expressions as written → values over the pool. `None`: there was a mistake, and it has been reported.
 
-use super::elaborate::Elaboration;
-use super::reach::Context;
+use super::depth::Context;
+use super::elaboration::Elaboration;
 use super::value::Value;
 use crate::ast::{Decimal, Expr, ExprKind, Factor, Sign};
 use crate::diagnostics::{Code, Extent};

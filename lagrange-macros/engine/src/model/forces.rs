@@ -1,8 +1,8 @@
 //! Applied forces by virtual work: Q·δq = f·δp at a point p, or Q = f ∂s/∂v along a velocity s; dissipation.
 
-use super::elaborate::Elaboration;
-use super::names::Kind;
-use super::reach::{Context, Depth, NORMAL_FORCE, Reach};
+use super::depth::{Context, Depth, NORMAL_FORCE, Reach};
+use super::elaboration::Elaboration;
+use super::meaning::Kind;
 use super::value::{Value, norm};
 use super::{Dissipation, Force, Worked};
 use crate::ast::{self, Action, Expr, Name};

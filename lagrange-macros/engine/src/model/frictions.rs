@@ -1,8 +1,8 @@
 //! Coulomb friction: slip velocities, coefficients, and the source of the normal force.
 
-use super::elaborate::Elaboration;
-use super::names::Kind;
-use super::reach::{Context, Depth, NORMAL_FORCE, Reach};
+use super::depth::{Context, Depth, NORMAL_FORCE, Reach};
+use super::elaboration::Elaboration;
+use super::meaning::Kind;
 use super::value::Value;
 use super::{Friction, Normal};
 use crate::ast::{self, Expr, ExprKind, FrictionLaw};

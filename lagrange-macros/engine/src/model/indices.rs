@@ -1,7 +1,7 @@
 //! Indices: known at build time, within ranges, free of other meanings; and sums over them.
 
-use super::elaborate::Elaboration;
-use super::reach::{Context, Reach};
+use super::depth::{Context, Reach};
+use super::elaboration::Elaboration;
 use super::value::Value;
 use crate::ast::{Expr, Index, Name, Range};
 use crate::diagnostics::{Code, Extent};

@@ -1,9 +1,9 @@
 //! Names as written → their values.
 
-use super::elaborate::Elaboration;
+use super::depth::{Context, Reach};
+use super::elaboration::Elaboration;
 use super::forces::FORCES_STAND;
-use super::names::{Kind, Meaning};
-use super::reach::{Context, Reach};
+use super::meaning::{Kind, Meaning};
 use super::value::Value;
 use crate::ast::{Expr, ExprKind, Name, Reference};
 use crate::diagnostics::Code;

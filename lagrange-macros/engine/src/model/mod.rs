@@ -14,14 +14,17 @@ mod declare;
 mod declared;
 mod defaults;
 mod degree;
+mod depth;
 mod draws;
 mod elaborate;
+mod elaboration;
 mod energies;
 mod evaluate;
 mod forces;
 mod frictions;
 mod indices;
 mod lookup;
+mod meaning;
 mod names;
 mod outputs;
 mod piecewise;
@@ -45,7 +48,8 @@ pub use checks::{Check, Premise, checks};
 pub use declared::{Declared, declared};
 pub use defaults::{defaults, number};
 pub use draws::{Draw, Turn};
-pub use elaborate::{Scope, in_body_rates, scoped, system};
+pub use elaborate::{in_body_rates, scoped, system};
+pub use elaboration::Scope;
 pub(crate) use names::shouting;
 
 /// A mechanical system with all names resolved.

@@ -1,8 +1,9 @@
 //! What is reported, what ends a run, and what is logged.
 
-use super::elaborate::{Elaboration, item_name};
-use super::names::{Kind, Meaning};
-use super::reach::{Context, Depth, Reach};
+use super::depth::{Context, Depth, Reach};
+use super::elaborate::item_name;
+use super::elaboration::Elaboration;
+use super::meaning::{Kind, Meaning};
 use super::value::Value;
 use super::{Condition, Observe, Watch};
 use crate::ast::{self, Clause, Expr, ExprKind, ModeWord, Name, Trigger};

@@ -1,8 +1,8 @@
 //! `abs sign min max if` → selections on numbered branches; a guard ≥ 0 selects the first side.
 
 use super::Branch;
-use super::elaborate::Elaboration;
-use super::reach::Context;
+use super::depth::Context;
+use super::elaboration::Elaboration;
 use super::value::Value;
 use crate::ast::{Comparison, Expr, Relation};
 use crate::diagnostics::{Code, Extent};

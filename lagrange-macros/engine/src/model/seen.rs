@@ -3,10 +3,10 @@
 //! A vector of `observe` that is a length is a point, and names that differ in one letter, `x` and `y`, `bob_x` and `bob_y`, `x1` and `y1`, are
 //! the coordinates of one. Where one of them is `z`, or the vector has three, the picture is in space. A contact whose gap is the height of a point over a level gives a floor.
 
+use super::depth::Depth;
 use super::draws::{Draw, MOST_PLACES, placed_force};
-use super::elaborate::Elaboration;
-use super::names::{Kind, Meaning};
-use super::reach::Depth;
+use super::elaboration::Elaboration;
+use super::meaning::{Kind, Meaning};
 use crate::ast::Form;
 use crate::symbolic::ExprId;
 

@@ -2,8 +2,8 @@
 //! not oriented stands along the axes of space.
 
 use super::Start;
-use super::elaborate::Elaboration;
-use super::reach::{Context, Reach};
+use super::depth::{Context, Reach};
+use super::elaboration::Elaboration;
 use super::value::Value;
 use crate::ast::{self, Element, Index, Order, StartValue};
 use crate::diagnostics::Code;

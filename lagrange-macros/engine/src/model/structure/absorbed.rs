@@ -3,7 +3,7 @@
 //! With `constraint(shell: r == radius)` the force of the shell is found only if the energies contain r. With T and V
 //! already written for r = radius, the multiplier is that of a coordinate without any: zero.
 
-use crate::model::elaborate::Elaboration;
+use crate::model::elaboration::Elaboration;
 use crate::model::{Coordinate, Hint, Level};
 use crate::sorted::{SortedMap, SortedSet};
 use crate::symbolic::{ExprId, Symbol};

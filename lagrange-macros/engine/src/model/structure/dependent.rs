@@ -7,7 +7,7 @@
 
 use super::{Pfaffian, STATES, ZERO, gradient, is_plain, slopes};
 use crate::diagnostics::Code;
-use crate::model::elaborate::Elaboration;
+use crate::model::elaboration::Elaboration;
 use crate::model::{Hint, Level};
 use crate::sorted::SortedMap;
 use crate::symbolic::ExprId;

@@ -6,9 +6,9 @@
 
 use super::{Pfaffian, STATES, ZERO, is_plain};
 use crate::ast::{self, Declaration, Expr, ExprKind, ItemKind};
-use crate::model::elaborate::Elaboration;
-use crate::model::names::Meaning;
-use crate::model::reach::{Context, Reach};
+use crate::model::depth::{Context, Reach};
+use crate::model::elaboration::Elaboration;
+use crate::model::meaning::Meaning;
 use crate::model::{Hint, Level};
 
 const CONSTRAINT: Context = Context::new(Reach::Motion, "a constraint");
@@ -104,7 +104,7 @@ impl Elaboration<'_> {
             let values = self.values(&[difference, rate], state);
             values.is_some_and(|v| v[0].abs() <= ZERO * v[1].abs().max(1e-3))
         });
-        if !zero || self.depth(&[position]) >= crate::model::reach::Depth::Velocity {
+        if !zero || self.depth(&[position]) >= crate::model::depth::Depth::Velocity {
             return None;
         }
         let text = format!(

@@ -8,7 +8,7 @@ mod absorbed;
 mod dependent;
 mod integrable;
 
-use super::elaborate::Elaboration;
+use super::elaboration::Elaboration;
 use super::{Constraint, Level};
 use crate::ast::Declaration;
 use crate::symbolic::{ExprId, Pool, Symbol};
@@ -71,7 +71,7 @@ impl Elaboration<'_> {
     /// Values at state `number`, or nothing if one of them is not finite. Parameters are those of every state.
     fn values(&self, expressions: &[ExprId], number: u32) -> Option<Vec<f64>> {
         let value = |symbol: Symbol| {
-            let varies = self.depths[symbol.index()] > super::reach::Depth::Parameter
+            let varies = self.depths[symbol.index()] > super::depth::Depth::Parameter
                 || symbol == self.system.time;
             let state = if varies { f64::from(number) } else { 0.0 };
             // Irrational steps: no two symbols are in a simple ratio.

@@ -6,7 +6,7 @@ use super::quantity::Quantity;
 use super::shape::Shape;
 use crate::ast::{Expr, Name};
 use crate::diagnostics::Code;
-use crate::model::names::Kind;
+use crate::model::meaning::Kind;
 use crate::symbolic::{Function, Rational};
 
 impl Checker<'_, '_> {

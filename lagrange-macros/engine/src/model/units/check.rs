@@ -15,8 +15,8 @@ use crate::ast::{
 };
 use crate::diagnostics::Diagnostics;
 use crate::model::Level;
-use crate::model::elaborate::Elaboration;
-use crate::model::names::{Kind, Meaning};
+use crate::model::elaboration::Elaboration;
+use crate::model::meaning::{Kind, Meaning};
 use crate::sorted::SortedMap;
 use crate::symbolic::Rational;
 

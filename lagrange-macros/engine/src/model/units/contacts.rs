@@ -7,7 +7,7 @@ use super::shape::{Role, Shape};
 use crate::ast::{Contact, Expr, ExprKind, Friction, FrictionLaw, Reference, Restitution};
 use crate::diagnostics::Code;
 use crate::model::Normal;
-use crate::model::names::Kind;
+use crate::model::meaning::Kind;
 use crate::symbolic::Rational;
 
 impl Checker<'_, '_> {

@@ -7,7 +7,7 @@ use super::dimension::Dimension;
 use super::quantity::Quantity;
 use super::shape::{Role, Shape};
 use crate::ast::{Expr, ExprKind, Factor, Index};
-use crate::model::reach::{Context, Reach};
+use crate::model::depth::{Context, Reach};
 use crate::symbolic::Rational;
 
 /// Where values are only read for their numbers.

@@ -26,7 +26,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-use super::elaborate::Elaboration;
+use super::elaboration::Elaboration;
 use super::{Hint, Units};
 use crate::ast::{self, Declaration, ItemKind, Name};
 use crate::diagnostics::{Code, Diagnostics};
@@ -256,9 +256,9 @@ impl Elaboration<'_> {
             let shape = match names.get(&name) {
                 Some(shape) => shape.clone()?,
                 None => {
-                    let Some(super::names::Entry {
+                    let Some(super::meaning::Entry {
                         kind,
-                        meaning: super::names::Meaning::Item { elements, .. },
+                        meaning: super::meaning::Meaning::Item { elements, .. },
                     }) = self.names.get(&name)
                     else {
                         return None;

@@ -4,7 +4,7 @@ use super::check::Checker;
 use super::dimension::Dimension;
 use super::shape::Shape;
 use crate::ast::{Expr, ExprKind, Name};
-use crate::model::names::Meaning;
+use crate::model::meaning::Meaning;
 
 impl Checker<'_, '_> {
     pub fn with_index<R>(&mut self, name: &Name, k: i64, body: impl FnOnce(&mut Self) -> R) -> R {
