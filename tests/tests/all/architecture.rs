@@ -85,7 +85,7 @@ const PROGRAM: [&str; 27] = [
 ];
 
 /// Rust sources below a folder, but for tests.
-fn sources(folder: &Path, list: &mut Vec<PathBuf>) {
+pub fn sources(folder: &Path, list: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("a folder").flatten() {
         let path = entry.path();
         let name = path.file_stem().and_then(|name| name.to_str());

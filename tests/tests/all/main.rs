@@ -4,6 +4,7 @@ mod architecture;
 mod arm;
 mod bowl;
 mod certificates;
+mod circles;
 mod declarations;
 mod derived;
 mod diagnostics;
