@@ -88,8 +88,8 @@ pub enum Error {
         mode: String,
         /// Which quantity.
         what: String,
-        /// Whether `exp`, `sinh` or `cosh` are so large there that powers of them overflow.
-        overflow: bool,
+        /// Why.
+        cause: NotFinite,
     },
     /// A gap, or the guard of a piecewise function, jumps below zero.
     Discontinuous {
@@ -228,6 +228,18 @@ pub enum Error {
     NotRecorded,
 }
 
+/// Why a quantity is not a finite number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum NotFinite {
+    /// An expression leaves its domain.
+    Domain,
+    /// `exp`, `sinh` or `cosh` are so large that powers of them overflow.
+    Exponential,
+    /// What the motion is made of is so large or so small that products of it overflow.
+    Range,
+}
+
 /// Level of a residual.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
@@ -333,15 +345,19 @@ impl fmt::Display for Error {
                 time,
                 mode,
                 what,
-                overflow,
+                cause,
             } => {
                 write!(f, "t = {time} ({mode}): {what} is not finite; ")?;
-                f.write_str(match overflow {
-                    true => {
+                f.write_str(match cause {
+                    NotFinite::Exponential => {
                         "exp, sinh or cosh is so large here that a power of it overflows: write 1/cosh(z)^2 as \
                          1 - tanh(z)^2, and 1/(1 + exp(-z)) as (1 + tanh(z/2))/2"
                     }
-                    false => "the expression leaves its domain here",
+                    NotFinite::Range => {
+                        "masses, lengths or accelerations here are so large or so small that products of them are beyond all numbers: \
+                         choose other units"
+                    }
+                    NotFinite::Domain => "the expression leaves its domain here",
                 })
             }
             Error::Discontinuous {
@@ -482,7 +498,7 @@ impl Error {
                     time,
                     mode,
                     what,
-                    overflow: false,
+                    cause: NotFinite::Domain,
                 }
             }
             EvaluationError::Projection { residual, .. } => Error::Projection {

@@ -282,3 +282,49 @@ fn a_slip_that_is_missed_late_in_a_long_step_is_found() {
         finds(&smoother, &[Subject::Cones]);
     }
 }
+
+/// A mass on a spring, seen only where it turns.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    potential = x^2 / 2,
+    start(pushed: der(x) = 1),
+    stop(top: x >= reach),
+    mark(there: x - reach),
+)]
+struct Swing {
+    reach: f64,
+}
+
+#[test]
+fn what_is_true_only_just_is_missed() {
+    let methods = ["auto", "dop853", "dopri5", "verner98", "radau5"];
+    for (method, depth) in methods.into_iter().flat_map(|m| [(m, 1e-7), (m, 5e-9)]) {
+        let swing = Swing { reach: 1.0 - depth };
+        for (item, subject) in [
+            (Item::from(Swing::TOP), Subject::Stops),
+            (Swing::THERE.into(), Subject::Marks),
+        ] {
+            let neither = Effects::all().without(Swing::TOP).without(Swing::THERE);
+            let simulation = Simulation::new(&swing).effects(neither).tolerance(1e-12);
+            let simulation = simulation.method(method.parse().expect("a method"));
+            let start = swing.at(Swing::PUSHED);
+            let mut trajectory = simulation.run(start, 0.0..3.0).expect("a run");
+            assert!(certificate(&trajectory).holds());
+            let other = if subject == Subject::Stops {
+                Swing::THERE.into()
+            } else {
+                Item::from(Swing::TOP)
+            };
+            trajectory.effects = Effects::all().without(other);
+            assert!(trajectory.effects.includes(trajectory.description(), item));
+            let found = certificate(&trajectory);
+            let check = found.checks.iter().find(|check| check.subject == subject);
+            assert!(
+                check.is_some_and(|c| !c.holds()),
+                "{method}, {depth:e}: {found}"
+            );
+        }
+    }
+}

@@ -49,6 +49,31 @@ pub fn first_root(c: &[f64], from: f64) -> Option<Root> {
     first
 }
 
+/// Where Σ cₖ sᵏ turns in (0, 1], ascending, into `out`.
+///
+/// # Panics
+/// If the degree is above [`MAX_DEGREE`] + 1.
+pub fn turns(c: &[f64], out: &mut RootList) {
+    let mut slope = [0.0; MAX_DEGREE + 1];
+    let rates = c.iter().enumerate().skip(1);
+    for (slope, (k, c)) in slope.iter_mut().zip(rates) {
+        *slope = k as f64 * c;
+    }
+    roots(&slope[..c.len().saturating_sub(1)], out);
+}
+
+/// By how much Σ cₖ sᵏ may be off on [0, 1] without another number of roots there: its smallest size at the ends and where it turns.
+///
+/// # Panics
+/// If the degree is above [`MAX_DEGREE`] + 1.
+pub fn clearance(c: &[f64]) -> f64 {
+    let mut all = RootList::new();
+    turns(c, &mut all);
+    let places = all.iter().map(|root| root.s).chain([0.0, 1.0]);
+    let sizes = places.map(|s| Powers(c).newton(s).0.abs());
+    sizes.fold(f64::INFINITY, f64::min)
+}
+
 /// Division by sᵐ of a polynomial whose zero at s = 0 is known to have order `m`: its residues c₀ … cₘ₋₁ are not read.
 pub fn deflate(c: &[f64], m: usize) -> &[f64] {
     &c[m.min(c.len())..]

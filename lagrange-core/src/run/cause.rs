@@ -2,7 +2,7 @@
 
 use super::{Run, exponents};
 use crate::arithmetic::Scalar;
-use crate::error::Error;
+use crate::error::{Error, NotFinite};
 use crate::integrate::Method;
 use crate::modes::domain;
 use crate::trajectory::State;
@@ -11,6 +11,9 @@ use crate::trajectory::State;
 const LOST: f64 = 0.1;
 /// If it changes velocities over the step by more than this, relative to the largest or 1.
 const SHOWS: f64 = 1e-3;
+
+/// Products of three numbers beyond this size, or its inverse, are beyond all numbers.
+const LARGEST: f64 = 1e102;
 
 impl<T: Scalar> Run<T> {
     /// The error that says why the motion came to this one.
@@ -28,23 +31,28 @@ impl<T: Scalar> Run<T> {
         }
     }
 
-    /// The same error, which says so if functions overflow where a number is not finite.
-    fn overflow(&self, error: Error) -> Error {
-        match error {
-            Error::NotFinite {
-                time, mode, what, ..
-            } => {
-                let (system, effects) = (self.dynamics.system(), self.dynamics.effects());
-                let overflow = exponents::overflow(system, effects, self.now.t, &self.now.state);
-                Error::NotFinite {
-                    time,
-                    mode,
-                    what,
-                    overflow,
-                }
+    /// The same error, which says so if numbers overflow where one is not finite.
+    fn overflow(&self, mut error: Error) -> Error {
+        if let Error::NotFinite { cause, .. } = &mut error {
+            let (system, effects) = (self.dynamics.system(), self.dynamics.effects());
+            if exponents::overflow(system, effects, self.now.t, &self.now.state) {
+                *cause = NotFinite::Exponential;
+            } else if self.is_out_of_range() {
+                *cause = NotFinite::Range;
             }
-            error => error,
         }
+        error
+    }
+
+    /// Whether parameters, the state or its accelerations are of a size that products leave the range of numbers with.
+    fn is_out_of_range(&self) -> bool {
+        let system = self.dynamics.system();
+        let parameters = 0..self.description().parameters.len();
+        let parameters = parameters.map(|i| system.parameter(i));
+        let State { q, v, .. } = &self.now.state;
+        let moving = q.iter().chain(v).chain(self.dynamics.acceleration());
+        let mut sizes = parameters.chain(moving.copied()).map(|x| x.value().abs());
+        sizes.any(|size| size > LARGEST || size > 0.0 && size < LARGEST.recip())
     }
 
     /// A number that is outside its domain at the present state.

@@ -10,7 +10,7 @@ use crate::arithmetic::Scalar;
 use crate::arithmetic::quad::{Quad, QuadBody, side_by_side};
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::effects::{Effects, Item};
-use crate::events::{deflate, keeps_its_sign};
+use crate::events::{Root, RootList, clearance, deflate, keeps_its_sign, turns};
 use crate::integrate::StepPolynomial;
 use crate::integrate::taylor::worse;
 use crate::mode::Mode;
@@ -31,8 +31,11 @@ const FEWEST_SAMPLES: usize = 8;
 /// Coefficients of an interpolation lose so many digits to rounding, relative.
 const INTERPOLATION: f64 = 1e-11;
 
-/// An interpolated guard may be off by this share of its distance from zero.
+/// An interpolated guard may be off by this share of what would give it other roots.
 const AWAY: f64 = 1e-2;
+
+/// A guard that turns in a step comes close to zero where it has this share of what it was before.
+const NEAR: f64 = 1e-2;
 
 /// A guard over a step.
 #[derive(Clone, Copy, Debug)]
@@ -44,8 +47,6 @@ struct GuardPolynomial {
     sums: Sums,
     /// Whether it stays positive for certain.
     stays: bool,
-    /// Of its samples, the nearest to zero.
-    least: f64,
     /// What is added to the guard: that far it may fall below zero.
     margin: f64,
 }
@@ -150,7 +151,6 @@ impl GuardPolynomials {
                     rest: f64::INFINITY,
                 },
                 stays: false,
-                least: 0.0,
                 margin: 0.0,
             });
         self.list.clear();
@@ -185,6 +185,14 @@ impl GuardPolynomials {
         let of_stop =
             move |index: &usize| matches!(self.watches[*index], Guard::Stop(j, _) if j == i);
         (first..self.watches.len()).take_while(of_stop)
+    }
+
+    /// The numbers of the terms of mark `i`.
+    pub(super) fn mark_terms(&self, i: usize) -> impl Iterator<Item = usize> {
+        let first = self.first_mark[i];
+        let of_mark =
+            move |index: &usize| matches!(self.watches[*index], Guard::Mark(j, _) if j == i);
+        (first..self.watches.len()).take_while(of_mark)
     }
 
     /// Term `k` of mark `i`.
@@ -442,7 +450,7 @@ impl GuardPolynomials {
         self.prepare(m);
         self.shape(m);
         for curve in &mut self.list {
-            (curve.stays, curve.least) = (false, f64::INFINITY);
+            curve.stays = false;
         }
         self.coefficients.fill(0.0);
         if self.coefficients.is_empty() {
@@ -459,8 +467,6 @@ impl GuardPolynomials {
             dynamics.report_value();
             for index in 0..self.list.len() {
                 let sample = self.value(index, mode, dynamics);
-                let least = &mut self.list[index].least;
-                *least = least.min(sample.abs());
                 let curve = &mut self.coefficients[index * m..][..m];
                 if j == 0 {
                     curve[0] = sample;
@@ -480,7 +486,7 @@ impl GuardPolynomials {
     }
 
     /// How far interpolated guards are off at part `s` of the step, in units of what is allowed; `dynamics` holds the values of
-    /// the state there. A guard that stays away from zero need not be known well.
+    /// the state there. A guard need not be known well as long as it has no other roots than its interpolation.
     pub(super) fn interpolation_defect<T: Scalar>(
         &self,
         dynamics: &mut Dynamics<T>,
@@ -496,8 +502,14 @@ impl GuardPolynomials {
             let allowed = (share * tolerance).max(floor).max(INTERPOLATION);
             let value = self.value(index, mode, dynamics);
             let size = value.abs() + (c[0].abs() + c[1].abs());
-            let allowed = (allowed * size + ROUNDING).max(AWAY * curve.least);
-            worst = worse(worst, (at(c, s) - value).abs() / allowed);
+            let allowed = allowed * size + ROUNDING;
+            let error = (at(c, s) - value).abs();
+            let ratio = if error > allowed {
+                error / allowed.max(AWAY * clearance(c))
+            } else {
+                error / allowed
+            };
+            worst = worse(worst, ratio);
         }
         worst
     }
@@ -517,6 +529,23 @@ impl GuardPolynomials {
         let (c, value) = (self.curve(index), self.value(index, mode, dynamics));
         let size = value.abs() + (c[0].abs() + c[1].abs());
         matches!(guard, Guard::Composite(_)) || value.abs() <= allowed * size + ROUNDING
+    }
+
+    /// Where the first guard turns that comes close to zero without a root before, or with roots that are hardly apart: there the
+    /// dense output must not be off.
+    pub(super) fn first_turn(&self, end: f64) -> Option<f64> {
+        let mut first = None;
+        let mut all = RootList::new();
+        for index in 0..self.list.len() {
+            let c = self.curve(index);
+            turns(c, &mut all);
+            let close = |root: &&Root| {
+                let least = at(c, root.s);
+                root.s < first.unwrap_or(end) && least.abs() <= NEAR * (c[0] - least).abs()
+            };
+            first = all.iter().find(close).map(|root| root.s).or(first);
+        }
+        first
     }
 
     /// Two parts of a step between the samples of its guards; nothing where none is sampled.

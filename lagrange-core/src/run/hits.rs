@@ -21,6 +21,11 @@ pub(super) const CLEAR: f64 = 1e-10;
 /// So many units of rounding are between the time of a root and of the same one when the next step begins.
 const UNITS_OF_TIME: f64 = 64.0;
 
+/// So many units of rounding, of the largest number, gather in a state.
+const UNITS_OF_STATE: f64 = 64.0;
+/// Slips that constraints tie to one another are so to this share of the tolerance.
+const TIED: f64 = 1e-4;
+
 /// What happens first within a step.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Hit {
@@ -140,7 +145,7 @@ impl<T: Scalar> Run<T> {
         self.locator.fallen.clear();
         let mut at = f64::INFINITY;
         for &(guard, s, width) in &self.locator.falls {
-            if s - width <= first {
+            if s - width <= first || self.has_all_but_fallen(guard, s, first) {
                 self.locator.fallen.push(guard);
                 at = at.min(s);
             }
@@ -162,6 +167,27 @@ impl<T: Scalar> Run<T> {
             Some((stop, s)) => Hit::Stop(stop, s),
             None => guards,
         }
+    }
+
+    /// Whether a gap, or a slip along a line, that vanishes at part `s` of the step cannot be told from zero already at part `now`. What happens at
+    /// once by symmetry is so far apart after a while.
+    fn has_all_but_fallen(&self, guard: Guard, s: f64, now: f64) -> bool {
+        let rounding = UNITS_OF_STATE * epsilon::<T>();
+        let (numbers, share) = match guard {
+            Guard::Gap(_) => (&self.now.state.q, rounding),
+            Guard::Slip(f) if self.description().frictions[f].components == 1 => {
+                let tied = TIED * self.settings.tolerance;
+                (&self.now.state.v, rounding.max(tied))
+            }
+            _ => return false,
+        };
+        let sizes = numbers.iter().map(|x| x.value().abs());
+        let blur = share * sizes.fold(1.0, f64::max);
+        self.locator.polynomials.of(guard).is_some_and(|curve| {
+            // A guard that begins at zero is small there, too, but leaves.
+            let left = (s - now) * slope(curve, s).abs();
+            left.max(value(curve, now).abs()) <= blur
+        })
     }
 
     /// Where a guard of the mode falls through zero: (part of the step, half width of the enclosure).
@@ -255,6 +281,7 @@ impl<T: Scalar> Run<T> {
                 end,
                 |k| curves.stop_term(i, k),
                 |k| below[i][k],
+                |k, s| self.is_true(Guard::Stop(i, k), curves.stop_term(i, k), s, resolution),
                 |k| comes_back_at_once(curves.stop_term(i, k), below[i][k], resolution),
                 |k, root| self.place(Guard::Stop(i, k), root).0,
             );
@@ -299,6 +326,7 @@ impl<T: Scalar> Run<T> {
                     end,
                     |k| curves.mark_term(i, k),
                     |k| below[i][k],
+                    |k, s| self.is_true(Guard::Mark(i, k), curves.mark_term(i, k), s, resolution),
                     |k| self.comes_back(i, k, curves.mark_term(i, k), resolution),
                     |k, root| self.place(Guard::Mark(i, k), root).0,
                 );
@@ -306,6 +334,13 @@ impl<T: Scalar> Run<T> {
             }
         }
         list.sort_by(|a, b| a.1.total_cmp(&b.1));
+    }
+
+    /// Whether a term of a watch is true at part `s` of the step or becomes so there, as far as rounding can tell.
+    fn is_true(&self, guard: Guard, curve: &[f64], s: f64, resolution: f64) -> bool {
+        let s = self.interpolated(guard, s);
+        let now = value(curve, s);
+        now >= 0.0 || is_zero(curve, s, now, resolution) && slope(curve, s) > 0.0
     }
 
     /// Whether a term of a mark crosses zero once more only because rounding has put it back to the side from which it has come, or,
@@ -395,7 +430,7 @@ fn leading(curve: &[f64], resolution: f64) -> Option<usize> {
     curve.iter().position(|c| c.abs() > noise)
 }
 
-/// First instant up to `end` at which a watch becomes true: a term rises through zero while the others are ≥ 0. `comes_back`
+/// First instant up to `end` at which a watch becomes true: a term rises through zero while the others are true. `comes_back`
 /// tells whether the first rise of a term has been seen before, and `place` where the root of its polynomial is.
 fn becomes_true<'c>(
     watch: &Watch,
@@ -403,6 +438,7 @@ fn becomes_true<'c>(
     end: f64,
     term: impl Fn(usize) -> &'c [f64],
     was_below: impl Fn(usize) -> bool,
+    is_true: impl Fn(usize, f64) -> bool,
     comes_back: impl Fn(usize) -> bool,
     place: impl Fn(usize, &Root) -> f64,
 ) -> Option<f64> {
@@ -412,7 +448,7 @@ fn becomes_true<'c>(
     let mut best: Option<f64> = None;
     for k in 0..watch.terms.len() {
         let curve = term(k);
-        let others = |s: f64| (0..watch.terms.len()).all(|j| j == k || value(term(j), s) >= 0.0);
+        let others = |s: f64| (0..watch.terms.len()).all(|j| j == k || is_true(j, s));
         let mut consider = |s: f64| {
             if s <= end && others(s) && best.is_none_or(|b| s < b) {
                 best = Some(s);

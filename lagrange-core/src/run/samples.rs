@@ -85,7 +85,8 @@ impl<T: Scalar> Run<T> {
             roots(self.judged(guard, curve).unwrap_or_default(), &mut all);
             for root in all.iter() {
                 let exact = self.sharpened(index, root);
-                let width = exact.map_or(0.5 * root.width, |s| 2.0 * f64::EPSILON * s);
+                // What rounding does to the coefficients it does to the samples as well.
+                let width = (0.5 * root.width).max(2.0 * f64::EPSILON * root.s);
                 self.locator.polynomials.roots.push(SampledRoot {
                     guard,
                     interpolated: root.s,
@@ -185,6 +186,33 @@ impl<T: Scalar> Run<T> {
         }
     }
 
+    /// Whether a mark up to part `end` of the step is no zero of its term but of the interpolation only. What `dynamics` and `scratch` hold at
+    /// the end of the step stays.
+    pub(super) fn misses_a_mark(&mut self, end: f64) -> Result<bool, EvaluationError> {
+        let mut marks = core::mem::take(&mut self.locator.marks);
+        self.marks_until(end, &mut marks);
+        let mut misses = false;
+        for &(mark, s) in marks.iter().filter(|(_, s)| *s > 0.0) {
+            self.evaluate_end(s)?;
+            self.dynamics.report_value();
+            let curves = &self.locator.polynomials;
+            let vanishes = |index| {
+                curves.vanishes(
+                    index,
+                    &self.now.mode,
+                    &self.dynamics,
+                    self.settings.tolerance,
+                )
+            };
+            misses |= !curves.mark_terms(mark).any(vanishes);
+        }
+        if !marks.is_empty() {
+            self.evaluate_end(end)?;
+        }
+        self.locator.marks = marks;
+        Ok(misses)
+    }
+
     /// Where a root of a guard's polynomial is, and half its width: of what was sampled, on the dense output.
     pub(super) fn place(&self, guard: Guard, root: &Root) -> (f64, f64) {
         let of_guard = self
@@ -198,5 +226,16 @@ impl<T: Scalar> Run<T> {
         nearest.map_or((root.s, 0.5 * root.width), |known| {
             (known.exact, known.width)
         })
+    }
+
+    /// The part of the step at which a guard's polynomial is what the guard is at part `s` on the dense output: roots are where they
+    /// have been found.
+    pub(super) fn interpolated(&self, guard: Guard, s: f64) -> f64 {
+        let roots = self.locator.polynomials.roots.iter();
+        let distance = |known: &&SampledRoot| (known.exact - s).abs();
+        let of_guard = roots.filter(|known| known.guard == guard);
+        let nearest = of_guard.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let moved = nearest.map_or(0.0, |known| known.interpolated - known.exact);
+        (s + moved).clamp(0.0, 1.0)
     }
 }

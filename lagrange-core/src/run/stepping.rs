@@ -10,7 +10,7 @@ use crate::arithmetic::products::{ROW, Row};
 use crate::arithmetic::quad::{Quad, QuadBody, side_by_side};
 use crate::arithmetic::{Scalar, epsilon};
 use crate::dynamics::{Dynamics, EvaluationError};
-use crate::error::Error;
+use crate::error::{Error, NotFinite};
 use crate::integrate::taylor::{self, DefectControl, Verdict};
 use crate::integrate::{
     Integrator, Method, StepError, StepPolynomial, horner, onto_step, polynomial_derivative,
@@ -36,8 +36,9 @@ const SLOW_ORDER: usize = 4;
 const MOST_SHORTENED: usize = 16;
 /// So many breaks of guards in a row are no instants that can be passed: a slip that fades has more than a thousand before it rests.
 const MOST_BREAKS: usize = 100_000;
-/// A step that is made again to end at a hit ends so much later, as a share of it, to see it once more.
-const PAST: f64 = 1e-3;
+/// A step that is made again to end at a hit ends so much later, as a share of it, to see it once more; and then once more so near that what
+/// lies before the end of a step is as good as the end.
+const PAST: [f64; 2] = [1e-3, 1e-6];
 /// A step in which an interpolation vanishes and its guard does not is made shorter by this factor.
 const NO_ROOT: f64 = 0.5;
 /// Steps of so many times the resolution of time are left to Taylor series.
@@ -388,7 +389,8 @@ impl<T: Scalar> Run<T> {
             let size = q.fold(1.0_f64, |size, q| size.max(q.value().abs()));
             let depth = BEYOND * self.settings.tolerance.max(1e-13) * size;
             let beyond = end + depth / polynomial_derivative(curve, end).abs();
-            if beyond > known || horner(curve, beyond) > -0.5 * depth {
+            let fallen = horner(curve, beyond);
+            if beyond > known || fallen > -0.5 * depth {
                 continue;
             }
             self.state_at_end(beyond);
@@ -396,7 +398,9 @@ impl<T: Scalar> Run<T> {
             let time = self.stepper.step.time(T::from_f64(beyond));
             self.dynamics.tape(time, q, v);
             let curves = &self.locator.polynomials;
-            if curves.value(index, &self.now.mode, &self.dynamics) > 0.5 * depth {
+            let gap = curves.value(index, &self.now.mode, &self.dynamics);
+            // A distance is then what its polynomial is, of the other sign; where the series of a gap has stopped converging it is something else.
+            if gap > 0.5 * depth && (gap + fallen).abs() < 0.5 * depth {
                 return Some(self.description().contacts[contact].name);
             }
         }
@@ -555,7 +559,7 @@ impl<T: Scalar> Run<T> {
     /// What happens first in a step whose guards were sampled; nothing where it is a guard that does not vanish there: its interpolation
     /// does, between samples that are all much farther from zero.
     fn hit_among_samples(&mut self) -> Result<Option<Hit>, Error> {
-        let (mut corrections, mut again) = (0, false);
+        let (mut corrections, mut closer, mut turned) = (0, PAST.iter(), false);
         loop {
             self.sharpen_roots();
             let hit = self.first_hit();
@@ -564,20 +568,33 @@ impl<T: Scalar> Run<T> {
                 return self.taylor_step().map(Some);
             }
             self.evaluate_end(hit.end()).map_err(|e| self.error(e))?;
-            if self.misses_its_root(&hit) {
+            let false_mark = self.misses_a_mark(hit.end());
+            if false_mark.map_err(|e| self.error(e))? || self.misses_its_root(&hit) {
                 return Ok(None);
             }
             self.now.distance = self.rank.distance(&self.dynamics);
             if !self.corrects_composites(&hit, hit.end(), &mut corrections) {
-                let closer = hit.end() * (1.0 + PAST);
+                // What happens, and what only just does or does not, is as exact as the ends of steps are.
                 let method = self.stepper.other.as_deref();
-                if again || closer >= 1.0 || !method.is_some_and(Integrator::is_best_at_end) {
+                let best = method.is_some_and(Integrator::is_best_at_end);
+                let turn = if best && !turned {
+                    self.locator.polynomials.first_turn(hit.end())
+                } else {
+                    None
+                };
+                let part = match turn {
+                    Some(turn) => {
+                        turned = true;
+                        turn
+                    }
+                    None if best => closer.next().map_or(1.0, |past| hit.end() * (1.0 + past)),
+                    None => 1.0,
+                };
+                if part >= 1.0 {
                     self.stepper.breaks = 0;
                     return Ok(Some(hit));
                 }
-                // An impact is as exact as the ends of steps are.
-                again = true;
-                self.integrate(closer * self.stepper.step.h.value())?;
+                self.integrate(part * self.stepper.step.h.value())?;
             }
             self.sample()?;
         }
@@ -598,7 +615,7 @@ impl<T: Scalar> Run<T> {
             time: self.now.t.value(),
             mode,
             what: what.to_owned(),
-            overflow: false,
+            cause: NotFinite::Domain,
         }
     }
 

@@ -2,6 +2,7 @@
 //! Taylor series do not show it, and go on along another branch.
 
 use super::state;
+use lagrange_core::error::NotFinite;
 use lagrange_core::prelude::*;
 use lagrange_tests::{agree, event, words};
 
@@ -318,13 +319,51 @@ fn a_watch_that_overflows_is_an_error_that_says_so() {
     };
     // exp(2000) is beyond all numbers.
     let failure = run(Barrier::TANGENT).expect_err("no series of this");
-    let Error::NotFinite { overflow, what, .. } = &failure.error else {
+    let Error::NotFinite { cause, what, .. } = &failure.error else {
         panic!("{failure}");
     };
-    assert!(overflow, "{failure}");
+    assert_eq!(*cause, NotFinite::Exponential, "{failure}");
     assert_eq!(what, "a Taylor coefficient of the guard of `logistic`");
     assert!(failure.to_string().contains("(1 + tanh(z/2))/2"));
     // The same, written as that message says.
     let run = run(Barrier::LOGISTIC).unwrap_or_else(|failure| panic!("{failure}"));
     agree("time", run.last_time(), 2.0, 1e-12);
+}
+
+/// A ram falls onto a pile in soil that holds it the better the deeper it is.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(ram, pile),
+    kinetic = mass/2 * (der(ram)^2 + der(pile)^2),
+    potential = gravity * mass * (ram + pile),
+    contact(head: ram >= pile, restitution = 1/5),
+    friction(soil: slip = der(pile), limit = skin * (1 + pile^2)),
+    start(lifted: ram = 1),
+)]
+struct Ram {
+    mass: f64,
+    gravity: f64,
+    skin: f64,
+}
+
+/// The soil stops so light a pile with an acceleration whose square is beyond all numbers; a hundred orders of magnitude below it drives on.
+#[test]
+fn numbers_out_of_range_are_an_error_that_says_so() {
+    let run = |mass: f64, skin: f64| {
+        let scene = Ram {
+            mass,
+            gravity: 9.81,
+            skin,
+        };
+        Simulation::new(&scene)
+            .run(scene.at(Ram::LIFTED), 0.0..3.0)
+            .map(drop)
+    };
+    let failure = run(1e-290, 4000.0).expect_err("no series of this");
+    let Error::NotFinite { cause, .. } = &failure.error else {
+        panic!("{failure}");
+    };
+    assert_eq!(*cause, NotFinite::Range, "{failure}");
+    assert!(failure.to_string().contains("choose other units"));
+    run(1e-290, 4e-287).unwrap_or_else(|failure| panic!("{failure}"));
 }
