@@ -31,6 +31,7 @@ pub use method::{Method, ParseMethodError};
 pub use polynomial::StepPolynomial;
 pub(crate) use polynomial::{
     derivative as polynomial_derivative, horner, onto_step, powers_of, sum as polynomial_sum,
+    value as polynomial_value,
 };
 pub use radau::Radau;
 pub use runge_kutta::RungeKutta;

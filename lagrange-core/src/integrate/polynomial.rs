@@ -228,6 +228,11 @@ pub(crate) fn horner<T: Scalar>(c: &[T], s: T) -> T {
     c.iter().rev().fold(T::zero(), |sum, &c| sum * s + c)
 }
 
+/// Σ cₖ sᵏ; at s = 1 as [`sum`].
+pub(crate) fn value(c: &[f64], s: f64) -> f64 {
+    if s == 1.0 { sum(c) } else { horner(c, s) }
+}
+
 /// Σ k cₖ sᵏ⁻¹.
 pub(crate) fn derivative<T: Scalar>(c: &[T], s: T) -> T {
     let terms = c.iter().enumerate().skip(1).rev();

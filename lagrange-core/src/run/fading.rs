@@ -7,9 +7,9 @@
 //! there. A slip of two components has no guard, and is not looked at for its rest ([`super::rest`]).
 
 use super::Run;
-use super::hits::value;
 use crate::arithmetic::Scalar;
 use crate::error::Error;
+use crate::integrate::polynomial_value as value;
 use crate::integrate::{Method, polynomial_derivative as slope};
 use crate::modes::guard::{self, Guard};
 

@@ -4,15 +4,14 @@
 //! evaluated at the Chebyshev–Lobatto points of the dense output and interpolated; [`super::samples`] sees to it that the
 //! interpolation holds.
 
-use super::hits::{CLEAR, value as at};
 use super::samples::SampledRoot;
 use crate::arithmetic::Scalar;
 use crate::arithmetic::quad::{Quad, QuadBody, side_by_side};
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::effects::{Effects, Item};
 use crate::events::{Root, RootList, clearance, deflate, keeps_its_sign, turns};
-use crate::integrate::StepPolynomial;
 use crate::integrate::taylor::worse;
+use crate::integrate::{StepPolynomial, polynomial_value as at};
 use crate::mode::Mode;
 use crate::modes::guard::{Guard, Linear, Sums};
 use crate::modes::reading::Reading;
@@ -21,6 +20,9 @@ use crate::system::Description;
 
 /// A guard on the other side of zero than its polynomial is off by more than rounding explains: this much more is counted.
 const OTHER_SIDE: f64 = 1e3;
+
+/// Coefficients this much smaller than all together can still be told from 0.
+pub(super) const CLEAR: f64 = 1e-10;
 
 /// So much a guard of size 1 is off by rounding.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;

@@ -1,13 +1,14 @@
 //! What ends a step early: the earliest root among the guards of the mode and the stops.
 
 use super::Run;
-use super::guard_polynomials::GuardPolynomials;
+use super::guard_polynomials::{CLEAR, GuardPolynomials};
+use super::hit::Hit;
 use super::instant::nearest;
 use super::region::is_edge_in_flight;
 use super::rest::Rest;
 use crate::arithmetic::{Scalar, epsilon};
 use crate::events::{Direction, Root, RootList, deflate, first_root, roots};
-use crate::integrate::{polynomial_derivative as slope, polynomial_sum as sum};
+use crate::integrate::{polynomial_derivative as slope, polynomial_value as value};
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::guard::{Guard, LENGTH};
 use crate::settings::Settings;
@@ -15,8 +16,6 @@ use crate::system::{Condition, Description, Watch};
 
 /// Coefficients this much smaller than all together cannot be told from 0: some degrees times rounding.
 const RESOLUTION: f64 = 1e-13;
-/// From here on they can.
-pub(super) const CLEAR: f64 = 1e-10;
 
 /// So many units of rounding are between the time of a root and of the same one when the next step begins.
 const UNITS_OF_TIME: f64 = 64.0;
@@ -25,30 +24,6 @@ const UNITS_OF_TIME: f64 = 64.0;
 const UNITS_OF_STATE: f64 = 64.0;
 /// Slips that constraints tie to one another are so to this share of the tolerance.
 const TIED: f64 = 1e-4;
-
-/// What happens first within a step.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Hit {
-    /// Nothing: the whole step is good.
-    Nothing,
-    /// Guards of the mode fall through zero (in [`Run::fallen`]) at this part of the step.
-    Guards(f64),
-    /// A slip of two components has turned by a quarter within the step, which ends at this part of it; or one that fades has
-    /// passed zero by its error.
-    Turned(f64),
-    /// Stop `index` becomes true at this part of the step.
-    Stop(usize, f64),
-}
-
-impl Hit {
-    /// Where the step ends.
-    pub(super) fn end(&self) -> f64 {
-        match *self {
-            Hit::Nothing => 1.0,
-            Hit::Guards(s) | Hit::Turned(s) | Hit::Stop(_, s) => s,
-        }
-    }
-}
 
 /// What finds the first thing that happens in a step, and what it knows of steps before.
 #[derive(Debug)]
@@ -507,12 +482,4 @@ pub(super) fn holds(watch: &Watch, mode: &Mode) -> bool {
         Condition::Sticks(f) => mode.frictions[f] == FrictionMode::Stick,
         Condition::Slips(f) => matches!(mode.frictions[f], FrictionMode::Slip(_)),
     })
-}
-
-pub(super) fn value(curve: &[f64], s: f64) -> f64 {
-    if s == 1.0 {
-        sum(curve)
-    } else {
-        crate::integrate::horner(curve, s)
-    }
 }

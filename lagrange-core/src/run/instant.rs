@@ -5,9 +5,10 @@
 //! or switch acts on them; the motion that follows has all terms of a saltation matrix (Leine & Nijmeijer 2004, chapter 7).
 
 use super::Run;
-use super::hits::{Hit, value};
+use super::hit::Hit;
 use crate::arithmetic::Scalar;
 use crate::integrate::polynomial_derivative as slope;
+use crate::integrate::polynomial_value as value;
 use crate::modes::exact::{exact, slip};
 use crate::modes::guard::Guard;
 use core::ops::Range;

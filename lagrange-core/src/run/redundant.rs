@@ -5,7 +5,7 @@
 //! changes along the motion, the weights of the guard are taken again at its root until both agree.
 
 use super::Run;
-use super::hits::Hit;
+use super::hit::Hit;
 use crate::arithmetic::Scalar;
 use crate::error::Error;
 use crate::modes::guard::Guard;

@@ -6,10 +6,10 @@
 //! come up through it. Where it enters the region on the surface, as a wheel that climbs a kerb, the contact closes.
 
 use super::Run;
-use super::hits::value;
 use crate::arithmetic::Scalar;
 use crate::effects::Item;
 use crate::events::{Direction, first_root};
+use crate::integrate::polynomial_value as value;
 use crate::mode::Mode;
 use crate::modes::guard::Guard;
 use crate::system::{Contact, ValueRef};

@@ -6,7 +6,7 @@
 //! passes near zero is followed through.
 
 use super::instant::derivatives;
-use super::stepping::Stepper;
+use super::stepping::{JUST_BEFORE, Stepper};
 use super::{Progress, Run};
 use crate::arithmetic::Scalar;
 use crate::dynamics::approach;
@@ -16,8 +16,6 @@ use crate::modes::exact;
 use crate::modes::guard::{self, Guard};
 use crate::trajectory::State;
 
-/// A slip close to its rest is looked at from this part of the way.
-pub(super) const JUST_BEFORE: f64 = 0.999;
 /// What may still change until rest, in units of the tolerance.
 const LEFT: f64 = 1.0;
 /// The same for a slip that comes to rest with another one.

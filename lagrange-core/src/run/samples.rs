@@ -6,7 +6,7 @@
 //! Roots of the interpolation are then moved to where the guard vanishes on the dense output.
 
 use super::Run;
-use super::hits::Hit;
+use super::hit::Hit;
 use crate::arithmetic::Scalar;
 use crate::dynamics::EvaluationError;
 use crate::events::{Direction, Root, RootList, roots};

@@ -9,7 +9,7 @@
 //! so far, is the square of a distance.
 
 use super::Run;
-use super::hits::Hit;
+use super::hit::Hit;
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::effects::{Effects, Item};

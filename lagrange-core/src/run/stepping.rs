@@ -1,8 +1,7 @@
 //! One accepted step: polynomials of the motion and of all guards, checked against an independent evaluation.
 
-use super::hits::Hit;
+use super::hit::Hit;
 use super::resolution::Resolution;
-use super::rest::JUST_BEFORE;
 use super::singular::{LEAST_DEGREE, MOST_RETREATS, RETREAT};
 use super::stiffness::Stiffness;
 use super::{Progress, Run};
@@ -20,6 +19,9 @@ use crate::modes::guard::Guard;
 use crate::settings::Settings;
 use crate::system::Description;
 use crate::trajectory::State;
+
+/// A slip close to its rest is looked at from this part of the way.
+pub(super) const JUST_BEFORE: f64 = 0.999;
 
 /// How far beyond a hit its gap is looked at, in units of the tolerance.
 const BEYOND: f64 = 10.0;
