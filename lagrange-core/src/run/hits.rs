@@ -20,11 +20,6 @@ const RESOLUTION: f64 = 1e-13;
 /// So many units of rounding are between the time of a root and of the same one when the next step begins.
 const UNITS_OF_TIME: f64 = 64.0;
 
-/// So many units of rounding, of the largest number, gather in a state.
-const UNITS_OF_STATE: f64 = 64.0;
-/// Slips that constraints tie to one another are so to this share of the tolerance.
-const TIED: f64 = 1e-4;
-
 /// What finds the first thing that happens in a step, and what it knows of steps before.
 #[derive(Debug)]
 pub(super) struct Locator<T> {
@@ -120,7 +115,7 @@ impl<T: Scalar> Run<T> {
         self.locator.fallen.clear();
         let mut at = f64::INFINITY;
         for &(guard, s, width) in &self.locator.falls {
-            if s - width <= first || self.has_all_but_fallen(guard, s, first) {
+            if s - width <= first {
                 self.locator.fallen.push(guard);
                 at = at.min(s);
             }
@@ -142,27 +137,6 @@ impl<T: Scalar> Run<T> {
             Some((stop, s)) => Hit::Stop(stop, s),
             None => guards,
         }
-    }
-
-    /// Whether a gap, or a slip along a line, that vanishes at part `s` of the step cannot be told from zero already at part `now`. What happens at
-    /// once by symmetry is so far apart after a while.
-    fn has_all_but_fallen(&self, guard: Guard, s: f64, now: f64) -> bool {
-        let rounding = UNITS_OF_STATE * epsilon::<T>();
-        let (numbers, share) = match guard {
-            Guard::Gap(_) => (&self.now.state.q, rounding),
-            Guard::Slip(f) if self.description().frictions[f].components == 1 => {
-                let tied = TIED * self.settings.tolerance;
-                (&self.now.state.v, rounding.max(tied))
-            }
-            _ => return false,
-        };
-        let sizes = numbers.iter().map(|x| x.value().abs());
-        let blur = share * sizes.fold(1.0, f64::max);
-        self.locator.polynomials.of(guard).is_some_and(|curve| {
-            // A guard that begins at zero is small there, too, but leaves.
-            let left = (s - now) * slope(curve, s).abs();
-            left.max(value(curve, now).abs()) <= blur
-        })
     }
 
     /// Where a guard of the mode falls through zero: (part of the step, half width of the enclosure).

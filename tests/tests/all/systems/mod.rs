@@ -40,7 +40,6 @@ mod last_bounces;
 mod late;
 mod lifts;
 mod metric;
-mod mirrored;
 mod multiples_of_pi;
 mod onset;
 mod pads;
