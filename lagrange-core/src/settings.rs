@@ -63,11 +63,13 @@ pub struct Awaited {
     pub subject: Subject,
     /// What happens to it (whatever an [`EventKind::Accumulates`] counts); `None`: anything.
     pub kind: Option<EventKind>,
+    /// Which of these events it is, counted from 1.
+    pub number: usize,
 }
 
 impl Awaited {
-    /// Whether it is this event.
-    pub(crate) fn is<T>(&self, event: &Event<T>) -> bool {
+    /// Whether an event is one of these, whatever its number.
+    pub fn is<T>(&self, event: &Event<T>) -> bool {
         let same = |kind: EventKind| kind.word() == event.kind.word();
         event.subject == self.subject && self.kind.is_none_or(same)
     }
@@ -75,14 +77,26 @@ impl Awaited {
 
 impl<I: Into<Subject>> From<I> for Awaited {
     fn from(item: I) -> Awaited {
-        let (subject, kind) = (item.into(), None);
-        Awaited { subject, kind }
+        Awaited {
+            subject: item.into(),
+            kind: None,
+            number: 1,
+        }
     }
 }
 
 impl<I: Into<Subject>> From<(I, EventKind)> for Awaited {
     fn from((item, kind): (I, EventKind)) -> Awaited {
-        let (subject, kind) = (item.into(), Some(kind));
-        Awaited { subject, kind }
+        (item, kind, 1).into()
+    }
+}
+
+impl<I: Into<Subject>> From<(I, EventKind, usize)> for Awaited {
+    fn from((item, kind, number): (I, EventKind, usize)) -> Awaited {
+        Awaited {
+            subject: item.into(),
+            kind: Some(kind),
+            number,
+        }
     }
 }

@@ -223,9 +223,11 @@ impl<T: Scalar> Run<T> {
     /// Goes on with an empty record.
     fn begin_piece(&mut self) {
         let events = &self.recorder.trajectory.events;
-        self.recorder
-            .awaited
-            .retain(|awaited| !events.iter().any(|e| awaited.is(e)));
+        self.recorder.awaited.retain_mut(|awaited| {
+            let seen = events.iter().filter(|event| awaited.is(event)).count();
+            awaited.number = awaited.number.saturating_sub(seen);
+            awaited.number > 0
+        });
         self.recorder.events_before += events.len();
         let work = self.recorder.trajectory.work;
         self.recorder
@@ -431,11 +433,8 @@ impl<T: Scalar> Run<T> {
     /// Whether everything has happened that the run is to end after.
     fn has_seen_all(&self) -> bool {
         let happened = |awaited: &Awaited| {
-            self.recorder
-                .trajectory
-                .events
-                .iter()
-                .any(|e| awaited.is(e))
+            let events = self.recorder.trajectory.events.iter();
+            events.filter(|event| awaited.is(event)).count() >= awaited.number
         };
         !self.settings.last_events.is_empty() && self.recorder.awaited.iter().all(happened)
     }

@@ -170,8 +170,8 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
         self
     }
 
-    /// Ends the run once this has happened: any event of an item, `MassOnWheel::FLOOR`, or one of a kind, `(MassOnWheel::RIM,
-    /// EventKind::Lost)`. Given several times, once all of them have.
+    /// Ends the run once this has happened: any event of an item, `MassOnWheel::FLOOR`, one of a kind, `(MassOnWheel::RIM,
+    /// EventKind::Lost)`, or the fifth of a kind, `(Ball::FLOOR, EventKind::Impact, 5)`. Given several times, once all of them have.
     #[must_use]
     pub fn end_after(mut self, event: impl Into<Awaited>) -> Self {
         self.settings.last_events.push(event.into());

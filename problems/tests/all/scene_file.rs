@@ -183,8 +183,8 @@ fn mistakes_are_told_at_their_place() {
             "2:26: no contact, friction, stop or mark is called `rmi`; did you mean `rim`?",
         ),
         (
-            in_wheel("end_after = \"rim lost 2\""),
-            "2:13: a run cannot end after `rim lost 2`: it ends after the first `rim lost`, or at a time, `--until` or `until = …`",
+            in_wheel("end_after = \"rim lost 0\""),
+            "2:13: no number of an event is called `rim lost 0`",
         ),
         (
             in_wheel("[start]\nfrom = \"rset\""),

@@ -148,6 +148,50 @@ fn runs_end_after_what_handles_name() {
     assert_eq!(ends(simulation().end_after(Wheel::FLOOR)), floor);
 }
 
+/// A ball that bounces.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y),
+    kinetic = der(y)^2/2,
+    potential = gravity * y,
+    contact(floor: y >= 0, restitution = bounce),
+    start(held: y = 1),
+)]
+struct Ball {
+    gravity: f64,
+    bounce: f64,
+}
+
+/// Impact n comes after a fall √(2/g) and n − 1 flights, each as long as the one before times e and the first 2 e falls; also where
+/// the run is told in pieces.
+#[test]
+fn runs_end_after_the_nth_event_of_a_kind() {
+    let ball = Ball {
+        gravity: 9.81,
+        bounce: 0.8,
+    };
+    let fall = (2.0 / ball.gravity).sqrt();
+    for number in [1, 2, 7] {
+        let simulation = Simulation::new(&ball).end_after((Ball::FLOOR, EventKind::Impact, number));
+        let run = simulation.run(ball.at(Ball::HELD), 0.0..20.0);
+        let run = run.expect("a run");
+        let flights: f64 = (1..number as i32).map(|k| 2.0 * ball.bounce.powi(k)).sum();
+        let time = fall * (1.0 + flights);
+        assert!((run.last_time() - time).abs() < 1e-9, "{number}");
+        assert_eq!(run.events().len(), number);
+        let mut runner = simulation.runner();
+        let (mut events, mut pieces) = (0, 1);
+        let outcome = runner.run_in_pieces(ball.at(Ball::HELD), 0.0..20.0, 1, |piece| {
+            (events, pieces) = (events + piece.events().len(), pieces + 1);
+        });
+        outcome.expect("a run");
+        let last = runner.trajectory();
+        assert_eq!(events + last.events().len(), number);
+        assert_eq!(last.last_time(), run.last_time());
+        assert!(pieces > number);
+    }
+}
+
 /// A puck that slides over a table while it is pushed down, and hits a wall.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(

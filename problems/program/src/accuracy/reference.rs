@@ -155,7 +155,7 @@ fn from_closed_form(
 
 fn summary(known: ClosedForm, description: &'static Description) -> Result<Summary, Refusal> {
     let happening = |(label, time): (&str, f64)| {
-        event(label, description).map(|(subject, kind)| (subject, kind, time))
+        event(label, description).map(|(subject, kind, _)| (subject, kind, time))
     };
     let events = known.events.into_iter().map(happening);
     Ok(Summary {

@@ -65,7 +65,7 @@ pub(super) struct Motion {
     /// End of the run, s [default: the scene's].
     #[arg(long, value_name = "T", value_parser = positive, allow_hyphen_values = true)]
     until: Option<f64>,
-    /// End the run after the first event of a kind ("rim lost", "floor impact"); if given several times, once all of them have happened.
+    /// End the run after an event ("rim lost", or "floor impact 5" for the fifth); if given several times, once all of them have happened.
     #[arg(long, value_name = "EVENT")]
     end_after: Vec<String>,
     /// Move a start that violates a constraint onto it instead of refusing it.

@@ -5,22 +5,6 @@ use crate::names::nearest;
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
 
-/// An event of a kind.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Sought {
-    /// The item.
-    pub(crate) subject: Subject,
-    /// What happens to it.
-    pub(crate) kind: EventKind,
-}
-
-impl Sought {
-    /// Whether it is this event.
-    pub(crate) fn is(&self, event: &Event<f64>) -> bool {
-        event.subject == self.subject && event.kind.word() == self.kind.word()
-    }
-}
-
 /// Kinds of events, as a user writes them.
 const KINDS: [EventKind; 10] = [
     EventKind::Lost,
@@ -51,30 +35,12 @@ const OTHERWISE: [(&str, &[&str]); 6] = [
     ("reverses", &["turns", "reversal", "backward"]),
 ];
 
-/// What `item kind` names, an event at its first occurrence.
+/// What `item kind` or `item kind 2` names: an item, what happens to it, and which of these events it is, counted from 1.
 pub(crate) fn event(
     text: &str,
     description: &'static Description,
-) -> Result<(Subject, EventKind), Refusal> {
-    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    match numbered(&words, description)? {
-        (event, 1) => Ok((event.subject, event.kind)),
-        _ => {
-            let first = words.trim_end_matches(|c: char| c.is_ascii_digit() || c == ' ');
-            Err(Refusal::LaterEvent {
-                event: words.clone(),
-                first: first.to_owned(),
-            })
-        }
-    }
-}
-
-/// What `item kind` or `item kind 2` names: an event, and its number from 1.
-pub(crate) fn numbered(
-    text: &str,
-    description: &'static Description,
-) -> Result<(Sought, usize), Refusal> {
-    let words: Vec<&str> = text.split(' ').collect();
+) -> Result<(Subject, EventKind, usize), Refusal> {
+    let words: Vec<&str> = text.split_whitespace().collect();
     let (item, kind, number) = match words[..] {
         [item] => (item, "", Some(1)),
         [item, kind] => (item, kind, Some(1)),
@@ -127,7 +93,7 @@ pub(crate) fn numbered(
     })?;
     let number = number
         .ok_or_else(|| Refusal::unknown("number of an event", text, ["1", "2"].into_iter()))?;
-    Ok((Sought { subject, kind }, number))
+    Ok((subject, kind, number))
 }
 
 #[cfg(test)]

@@ -122,13 +122,6 @@ pub enum Refusal {
         /// The name.
         name: String,
     },
-    /// The second or a later event of a kind, where a run ends after the first.
-    LaterEvent {
-        /// `rim lost 2`
-        event: String,
-        /// `rim lost`
-        first: String,
-    },
     /// An axis of a grid without the number of its values.
     Uncounted {
         /// The axis.
@@ -206,10 +199,6 @@ impl fmt::Display for Refusal {
                 f,
                 "{points:e} points are too many: their results would take {bytes:.1e} bytes; a sweep has at most {most} points"
             ),
-            Refusal::LaterEvent { event, first } => write!(
-                f,
-                "a run cannot end after `{event}`: it ends after the first `{first}`, or at a time, `--until` or `until = …`"
-            ),
             Refusal::Begin(error) | Refusal::Run(error) => write!(f, "{error}"),
             Refusal::Start(error) => write!(f, "no such start: {error}"),
             Refusal::Reference { by, reason } => {
@@ -265,8 +254,7 @@ impl Request {
             simulation = simulation.max_events(limit);
         }
         for name in &self.end_after {
-            let (subject, kind) = event(name, system.description())?;
-            simulation = simulation.end_after((subject, kind));
+            simulation = simulation.end_after(event(name, system.description())?);
         }
         Ok(match &self.progress {
             Some(progress) => simulation.monitor(progress.monitor()),

@@ -12,7 +12,7 @@ use super::modes::Switches;
 use super::unit;
 use crate::notation::velocity_name;
 use crate::outcome::{Force, forces};
-use crate::request::event::{Sought, numbered};
+use crate::request::event::event;
 use crate::request::{Quantity, Refusal, find_state};
 use crate::scene::Scene;
 use lagrange_core::prelude::*;
@@ -44,8 +44,8 @@ enum What {
 #[derive(Clone, Debug, PartialEq)]
 enum At {
     End,
-    /// The event at its first, second … occurrence.
-    Event(Sought, usize),
+    /// An event at its first, second … occurrence.
+    Event(Awaited),
 }
 
 impl Observation {
@@ -61,7 +61,7 @@ impl Observation {
             _ if name == "modes" => (What::Modes(Switches::of(description)), At::End),
             (Some(event), _) => (What::Count, at(event, description)?),
             (None, Some((quantity, "the end"))) => (quantity_of(quantity, description)?, At::End),
-            (None, Some((quantity, "end"))) if numbered("end", description).is_err() => {
+            (None, Some((quantity, "end"))) if event("end", description).is_err() => {
                 (quantity_of(quantity, description)?, At::End)
             }
             (None, Some((quantity, event))) => {
@@ -102,10 +102,10 @@ impl Observation {
         matches!(self.what, What::Modes(_))
     }
 
-    /// The event after whose first occurrence a run has no more to say to this, if there is one.
-    pub fn ends_with(&self) -> Option<(Subject, EventKind)> {
+    /// The event after which a run has no more to say to this, if there is one.
+    pub fn ends_with(&self) -> Option<Awaited> {
         match &self.at {
-            At::Event(event, 1) if self.what != What::Count => Some((event.subject, event.kind)),
+            At::Event(event) if self.what != What::Count => Some(*event),
             _ => None,
         }
     }
@@ -117,12 +117,12 @@ impl Observation {
         }
         let event = match &self.at {
             At::End => None,
-            At::Event(sought, number) => {
-                let mut events = trajectory.events().iter().filter(|event| sought.is(event));
+            At::Event(awaited) => {
+                let mut events = trajectory.events().iter().filter(|event| awaited.is(event));
                 if self.what == What::Count {
                     return events.count() as f64;
                 }
-                let Some(event) = events.nth(number - 1) else {
+                let Some(event) = events.nth(awaited.number - 1) else {
                     return f64::NAN;
                 };
                 Some(event)
@@ -160,8 +160,7 @@ impl Observation {
 
 /// `item kind`, `item kind 2`
 fn at(text: &str, description: &'static Description) -> Result<At, Refusal> {
-    let (sought, number) = numbered(text, description)?;
-    Ok(At::Event(sought, number))
+    Ok(At::Event(event(text, description)?.into()))
 }
 
 fn quantity_of(name: &str, description: &'static Description) -> Result<What, Refusal> {

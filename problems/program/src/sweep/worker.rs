@@ -33,8 +33,8 @@ impl dyn Scene + '_ {
             .record(false)
             .max_events(sweep.most_events());
         let ends: Option<Vec<_>> = sweep.observed.iter().map(|o| o.ends_with()).collect();
-        for (subject, kind) in ends.unwrap_or_default() {
-            simulation = simulation.end_after((subject, kind));
+        for event in ends.unwrap_or_default() {
+            simulation = simulation.end_after(event);
         }
         let mut ensemble = simulation.ensemble();
         let varies = targets
