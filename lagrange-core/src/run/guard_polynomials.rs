@@ -543,7 +543,8 @@ impl GuardPolynomials {
             turns(c, &mut all);
             let close = |root: &&Root| {
                 let least = at(c, root.s);
-                root.s < first.unwrap_or(end) && least.abs() <= NEAR * (c[0] - least).abs()
+                let fall = (c[0] - least).abs();
+                root.s < first.unwrap_or(end) && fall > ROUNDING && least.abs() <= NEAR * fall
             };
             first = all.iter().find(close).map(|root| root.s).or(first);
         }
