@@ -95,7 +95,7 @@ impl Crate {
 /// The paths that a file names, in `use` and elsewhere; its tests may name everything.
 fn paths(text: &str) -> Vec<Vec<String>> {
     let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or("");
-    let file = syn::parse_file(code).expect("Rust");
+    let file = syn::parse_file(text).expect("Rust");
     let mut list = Vec::new();
     for item in file.items {
         if let Item::Use(found) = item {
