@@ -7,7 +7,7 @@ use super::instant::nearest;
 use super::region::is_edge_in_flight;
 use super::rest::Rest;
 use crate::arithmetic::{Scalar, epsilon};
-use crate::events::{Direction, Root, RootList, deflate, first_root, roots};
+use crate::events::{Direction, RootList, deflate, first_root, roots};
 use crate::integrate::{polynomial_derivative as slope, polynomial_value as value};
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::guard::{Guard, LENGTH};
@@ -19,6 +19,17 @@ const RESOLUTION: f64 = 1e-13;
 
 /// So many units of rounding are between the time of a root and of the same one when the next step begins.
 const UNITS_OF_TIME: f64 = 64.0;
+
+/// A term of a stop or of a mark over the step.
+#[derive(Clone, Copy)]
+struct Term<'c> {
+    guard: Guard,
+    curve: &'c [f64],
+    /// Whether it was below zero when the step began.
+    was_below: bool,
+    /// Whether its first rise has been seen before.
+    comes_back: bool,
+}
 
 /// What finds the first thing that happens in a step, and what it knows of steps before.
 #[derive(Debug)]
@@ -222,18 +233,16 @@ impl<T: Scalar> Run<T> {
         let curves = &self.locator.polynomials;
         let mut best: Option<(usize, f64)> = None;
         for &i in &curves.stops {
-            let (watch, mode) = (&d.stops[i], &self.now.mode);
-            let below = &self.locator.stop_below;
-            let first = becomes_true(
-                watch,
-                mode,
-                end,
-                |k| curves.stop_term(i, k),
-                |k| below[i][k],
-                |k, s| self.is_true(Guard::Stop(i, k), curves.stop_term(i, k), s, resolution),
-                |k| comes_back_at_once(curves.stop_term(i, k), below[i][k], resolution),
-                |k, root| self.place(Guard::Stop(i, k), root).0,
-            );
+            let below = &self.locator.stop_below[i];
+            let first = self.becomes_true(&d.stops[i], end, |k| {
+                let curve = curves.stop_term(i, k);
+                Term {
+                    guard: Guard::Stop(i, k),
+                    curve,
+                    was_below: below[k],
+                    comes_back: comes_back_at_once(curve, below[k], resolution),
+                }
+            });
             if let Some(s) = first
                 && best.is_none_or(|(_, t)| s < t)
             {
@@ -268,28 +277,76 @@ impl<T: Scalar> Run<T> {
                         .map(|s| (i, s)),
                 );
             } else {
-                let below = &self.locator.mark_below;
-                let first = becomes_true(
-                    watch,
-                    &self.now.mode,
-                    end,
-                    |k| curves.mark_term(i, k),
-                    |k| below[i][k],
-                    |k, s| self.is_true(Guard::Mark(i, k), curves.mark_term(i, k), s, resolution),
-                    |k| self.comes_back(i, k, curves.mark_term(i, k), resolution),
-                    |k, root| self.place(Guard::Mark(i, k), root).0,
-                );
+                let below = &self.locator.mark_below[i];
+                let first = self.becomes_true(watch, end, |k| {
+                    let curve = curves.mark_term(i, k);
+                    Term {
+                        guard: Guard::Mark(i, k),
+                        curve,
+                        was_below: below[k],
+                        comes_back: self.comes_back(i, k, curve, resolution),
+                    }
+                });
                 list.extend(first.map(|s| (i, s)));
             }
         }
         list.sort_by(|a, b| a.1.total_cmp(&b.1));
     }
 
-    /// Whether a term of a watch is true at part `s` of the step or becomes so there, as far as rounding can tell.
-    fn is_true(&self, guard: Guard, curve: &[f64], s: f64, resolution: f64) -> bool {
-        let s = self.interpolated(guard, s);
-        let now = value(curve, s);
-        now >= 0.0 || is_zero(curve, s, now, resolution) && slope(curve, s) > 0.0
+    /// First instant up to `end` at which a watch becomes true: a term rises through zero while the others are true.
+    fn becomes_true<'c>(
+        &self,
+        watch: &Watch,
+        end: f64,
+        term: impl Fn(usize) -> Term<'c>,
+    ) -> Option<f64> {
+        if !holds(watch, &self.now.mode) {
+            return None;
+        }
+        let mut best: Option<f64> = None;
+        for k in 0..watch.terms.len() {
+            let Term {
+                guard,
+                curve,
+                was_below,
+                mut comes_back,
+            } = term(k);
+            let others =
+                |s: f64| (0..watch.terms.len()).all(|j| j == k || self.is_true(term(j), s));
+            let mut consider = |s: f64| {
+                if s <= end && others(s) && best.is_none_or(|b| s < b) {
+                    best = Some(s);
+                }
+            };
+            if was_below && curve.first().is_some_and(|c| *c >= 0.0) {
+                consider(0.0);
+            }
+            let mut from = 0.0;
+            while let Some(root) = first_root(curve, from) {
+                let (s, _) = self.place(guard, &root);
+                if s > end {
+                    break;
+                }
+                let rises = root.direction == Direction::Rising && !root.grazing;
+                if rises && !core::mem::take(&mut comes_back) {
+                    consider(s);
+                }
+                // A root that rounding puts at 0 must not be found again.
+                from = root.s.max(f64::MIN_POSITIVE);
+                if from >= 1.0 {
+                    break;
+                }
+            }
+        }
+        best
+    }
+
+    /// Whether a term is true at part `s` of the step or becomes so there, as far as rounding can tell.
+    fn is_true(&self, term: Term<'_>, s: f64) -> bool {
+        let s = self.interpolated(term.guard, s);
+        let now = value(term.curve, s);
+        now >= 0.0
+            || is_zero(term.curve, s, now, self.resolution_of_time()) && slope(term.curve, s) > 0.0
     }
 
     /// Whether a term of a mark crosses zero once more only because rounding has put it back to the side from which it has come, or,
@@ -377,54 +434,6 @@ fn hides_its_start(guard: Guard, curve: &[f64]) -> bool {
 fn leading(curve: &[f64], resolution: f64) -> Option<usize> {
     let noise = resolution * curve.iter().map(|c| c.abs()).sum::<f64>();
     curve.iter().position(|c| c.abs() > noise)
-}
-
-/// First instant up to `end` at which a watch becomes true: a term rises through zero while the others are true. `comes_back`
-/// tells whether the first rise of a term has been seen before, and `place` where the root of its polynomial is.
-fn becomes_true<'c>(
-    watch: &Watch,
-    mode: &Mode,
-    end: f64,
-    term: impl Fn(usize) -> &'c [f64],
-    was_below: impl Fn(usize) -> bool,
-    is_true: impl Fn(usize, f64) -> bool,
-    comes_back: impl Fn(usize) -> bool,
-    place: impl Fn(usize, &Root) -> f64,
-) -> Option<f64> {
-    if !holds(watch, mode) {
-        return None;
-    }
-    let mut best: Option<f64> = None;
-    for k in 0..watch.terms.len() {
-        let curve = term(k);
-        let others = |s: f64| (0..watch.terms.len()).all(|j| j == k || is_true(j, s));
-        let mut consider = |s: f64| {
-            if s <= end && others(s) && best.is_none_or(|b| s < b) {
-                best = Some(s);
-            }
-        };
-        if was_below(k) && curve.first().is_some_and(|c| *c >= 0.0) {
-            consider(0.0);
-        }
-        let mut from = 0.0;
-        let mut comes_back = comes_back(k);
-        while let Some(root) = first_root(curve, from) {
-            let s = place(k, &root);
-            if s > end {
-                break;
-            }
-            let rises = root.direction == Direction::Rising && !root.grazing;
-            if rises && !core::mem::take(&mut comes_back) {
-                consider(s);
-            }
-            // A root that rounding puts at 0 must not be found again.
-            from = root.s.max(f64::MIN_POSITIVE);
-            if from >= 1.0 {
-                break;
-            }
-        }
-    }
-    best
 }
 
 /// Whether a curve, `now` at part `s` of a step, is zero there, as far as rounding can tell: of its terms, or of the time, to which the
