@@ -184,7 +184,7 @@ fn mistakes_are_told_at_their_place() {
         ),
         (
             in_wheel("end_after = \"rim lost 0\""),
-            "2:13: no number of an event is called `rim lost 0`",
+            "2:13: events are counted from 1: `rim lost 2` is the second, and there is no `rim lost 0`",
         ),
         (
             in_wheel("[start]\nfrom = \"rset\""),

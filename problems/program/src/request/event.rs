@@ -91,8 +91,10 @@ pub(crate) fn event(
             known: words.iter().map(|word| format!("{item} {word}")).collect(),
         }
     })?;
-    let number = number
-        .ok_or_else(|| Refusal::unknown("number of an event", text, ["1", "2"].into_iter()))?;
+    let number = number.ok_or_else(|| Refusal::EventNumber {
+        event: text.to_owned(),
+        second: format!("{item} {} 2", kind.word()),
+    })?;
     Ok((subject, kind, number))
 }
 
@@ -116,6 +118,8 @@ mod tests {
                 "right xyz",
                 "there are: right lost, right closed, right impact",
             ),
+            ("right lost 0", "`right lost 2` is the second"),
+            ("right lost two", "`right lost 2` is the second"),
         ] {
             let refusal = event(said, scene.description()).expect_err(said);
             assert!(refusal.to_string().contains(answer), "{refusal}");

@@ -122,6 +122,13 @@ pub enum Refusal {
         /// The name.
         name: String,
     },
+    /// What stands behind a kind of event is no number from 1.
+    EventNumber {
+        /// `rim lost 0`
+        event: String,
+        /// `rim lost 2`
+        second: String,
+    },
     /// An axis of a grid without the number of its values.
     Uncounted {
         /// The axis.
@@ -198,6 +205,10 @@ impl fmt::Display for Refusal {
             } => write!(
                 f,
                 "{points:e} points are too many: their results would take {bytes:.1e} bytes; a sweep has at most {most} points"
+            ),
+            Refusal::EventNumber { event, second } => write!(
+                f,
+                "events are counted from 1: `{second}` is the second, and there is no `{event}`"
             ),
             Refusal::Begin(error) | Refusal::Run(error) => write!(f, "{error}"),
             Refusal::Start(error) => write!(f, "no such start: {error}"),
