@@ -183,18 +183,19 @@ impl GuardPolynomials {
 
     /// The numbers of the terms of stop `i`.
     pub(super) fn stop_terms(&self, i: usize) -> impl Iterator<Item = usize> {
-        let first = self.first_stop[i];
-        let of_stop =
-            move |index: &usize| matches!(self.watches[*index], Guard::Stop(j, _) if j == i);
-        (first..self.watches.len()).take_while(of_stop)
+        let of_stop = move |guard| matches!(guard, Guard::Stop(j, _) if j == i);
+        self.terms(self.first_stop[i], of_stop)
     }
 
     /// The numbers of the terms of mark `i`.
     pub(super) fn mark_terms(&self, i: usize) -> impl Iterator<Item = usize> {
-        let first = self.first_mark[i];
-        let of_mark =
-            move |index: &usize| matches!(self.watches[*index], Guard::Mark(j, _) if j == i);
-        (first..self.watches.len()).take_while(of_mark)
+        let of_mark = move |guard| matches!(guard, Guard::Mark(j, _) if j == i);
+        self.terms(self.first_mark[i], of_mark)
+    }
+
+    /// The numbers of the terms of a watch, given the first.
+    fn terms(&self, first: usize, own: impl Fn(Guard) -> bool) -> impl Iterator<Item = usize> {
+        (first..self.watches.len()).take_while(move |&index| own(self.watches[index]))
     }
 
     /// Term `k` of mark `i`.

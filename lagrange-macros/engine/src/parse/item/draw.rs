@@ -3,7 +3,7 @@
 use super::super::cursor::Cursor;
 use super::super::expression::{expression, whole};
 use super::super::leftover::leftover;
-use super::{head_and_colon, key, no_more};
+use super::{head_and_colon, key, meant, no_more};
 use crate::ast::{Detail, Draw, Form, ItemKind};
 use crate::diagnostics::{Code, Diagnostics, nearest};
 
@@ -27,12 +27,7 @@ pub(super) fn draw(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<Ite
     let word = head.name;
     let Some(&(text, form)) = Form::ALL.iter().find(|(text, _)| *text == word.text) else {
         let words = Form::ALL.iter().map(|(text, _)| *text);
-        let other = OTHERWISE
-            .iter()
-            .find(|(_, others)| others.contains(&word.text.as_str()));
-        let meant = other
-            .map(|(form, _)| *form)
-            .or_else(|| nearest(&word.text, words.clone()));
+        let meant = meant(&OTHERWISE, &word.text).or_else(|| nearest(&word.text, words.clone()));
         let hint = match meant {
             Some(known) => format!("did you mean `{known}`?"),
             None => format!("forms are {}", words.collect::<Vec<_>>().join(", ")),

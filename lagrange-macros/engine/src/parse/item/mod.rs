@@ -309,6 +309,13 @@ fn reference(part: &mut Cursor, what: &str, sink: &mut Diagnostics) -> Option<Re
     Some(Reference { name, element })
 }
 
+/// What the language calls a word, by a table of its words with what others say.
+fn meant<'w>(table: &[(&'w str, &[&str])], word: &str) -> Option<&'w str> {
+    let mut rows = table.iter();
+    let (known, _) = rows.find(|(_, others)| others.contains(&word))?;
+    Some(known)
+}
+
 /// Letters and words for a part that textbooks call otherwise.
 const OTHERWISE: [(&str, &[&str]); 5] = [
     ("static", &["mu", "mu_s", "mu_static", "coefficient"]),
@@ -327,10 +334,7 @@ pub(super) fn key(
 ) -> Option<Name> {
     let key = part.name("a part `name = …`", sink)?;
     if !keys.contains(&key.text.as_str()) {
-        let meant = OTHERWISE
-            .iter()
-            .find(|(known, others)| keys.contains(known) && others.contains(&key.text.as_str()));
-        let meant = meant.map(|(known, _)| *known);
+        let meant = meant(&OTHERWISE, &key.text).filter(|known| keys.contains(known));
         let hint = match meant.or_else(|| nearest(&key.text, keys.iter().copied())) {
             _ if key.text == "poisson" => "write `restitution = poisson(e)`".to_string(),
             Some(known) => format!("did you mean `{known}`?"),
