@@ -177,6 +177,8 @@ fn outputs_that_cannot_be_written_are_refused_before_the_run() {
     );
     told(&["--plot", "no/run.svg"], 1, "there is no folder no");
     told(&["--save", "no/run.toml"], 1, "there is no folder no");
+    let long = format!("{}.csv", "n".repeat(300));
+    told(&["--output", &long], 1, "cannot write nnn");
     told(&["--output", "there.csv"], 1, "it is a folder");
     told(
         &["--output", "long.toml", "--format", "csv"],

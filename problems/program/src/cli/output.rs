@@ -4,7 +4,7 @@ use super::Trouble;
 use crate::format::{Format, Still};
 use crate::results::{self, PLOTS};
 use clap::Args;
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -87,9 +87,12 @@ fn writable(path: &Path) -> Result<(), String> {
         }
         // A device or a pipe.
         Ok(_) => Ok(()),
-        Err(_) => File::create_new(path)
-            .and_then(|_| fs::remove_file(path))
-            .map_err(|error| error.to_string()),
+        // A file without a name is tried: a process that is killed here leaves nothing that looks like a result.
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            let tried = tempfile::tempfile_in(folder.unwrap_or(Path::new(".")));
+            tried.map(drop).map_err(|error| error.to_string())
+        }
+        Err(error) => Err(error.to_string()),
     }
 }
 
