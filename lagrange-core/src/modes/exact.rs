@@ -1,13 +1,14 @@
 //! A guard as a number of the run's own scalar: what located the root is a double, its derivatives come from here.
 
+use super::composite::CompositeGuard;
 use super::guard::{Guard, cone_unit};
-use super::redundant::CompositeGuard;
+
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::mode::{Direction, FrictionMode, Mode};
 use crate::system::{Normal, ValueRef};
 
-/// A guard at the last value of `dynamics`, as [`super::redundant::value`] with all derivatives that its parts carry. Stops,
+/// A guard at the last value of `dynamics`, as [`super::composite::value`] with all derivatives that its parts carry. Stops,
 /// marks and branches of forces read the report tape.
 pub fn exact<T: Scalar>(
     guard: Guard,

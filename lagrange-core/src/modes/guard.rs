@@ -48,7 +48,7 @@ pub enum Guard {
     Stop(usize, usize),
     /// Term of a mark.
     Mark(usize, usize),
-    /// A sum of guards of undetermined forces: index into a list of [`CompositeGuard`](crate::modes::redundant::CompositeGuard)s.
+    /// A sum of guards of undetermined forces: index into a list of [`CompositeGuard`](crate::modes::composite::CompositeGuard)s.
     Composite(usize),
 }
 

@@ -6,7 +6,7 @@
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, OutputMask};
-use crate::modes::decide::EvaluationPoint;
+use crate::modes::facts::EvaluationPoint;
 
 /// States are this far beside, relative above 1.
 const BESIDE: f64 = 1e-4;

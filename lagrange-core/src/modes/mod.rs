@@ -1,12 +1,14 @@
 //! Which mode comes next: contacts, friction, impact.
 //!
-//! [`guard`] says what ends a mode, [`decide`](mod@decide) finds the mode that goes on, [`impact`](mod@impact) what velocities do when
+//! [`guard`] says what ends a mode and [`composite`] where forces that are open do, [`facts`] what is known at a switch, [`decide`](mod@decide) finds the mode that goes on, [`impact`](mod@impact) what velocities do when
 //! a contact is hit, [`held`] which branches stay at their border, [`domain`](mod@domain) which numbers are legal, [`start`] what holds at the beginning, [`status`] what a state is like, [`redundant`] how
 //! forces that the motion leaves open are shared out.
 
+pub(crate) mod composite;
 pub(crate) mod decide;
 pub(crate) mod domain;
 pub(crate) mod exact;
+pub(crate) mod facts;
 pub(crate) mod guard;
 pub(crate) mod held;
 pub(crate) mod impact;

@@ -5,7 +5,7 @@ use crate::dynamics::{Dynamics, OutputMask};
 use crate::effects::Item;
 use crate::error::{Error, Level};
 use crate::mode::{FrictionMode, Mode, Sliding};
-use crate::modes::decide::SwitchFacts;
+use crate::modes::facts::SwitchFacts;
 use crate::modes::guard;
 use crate::state::State;
 use crate::system::{Description, ValueRef};

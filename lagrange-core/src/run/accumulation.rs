@@ -13,7 +13,7 @@ use super::instant::derivatives;
 use crate::arithmetic::Scalar;
 use crate::error::Error;
 use crate::mode::FrictionMode;
-use crate::modes::decide::SwitchFacts;
+use crate::modes::facts::SwitchFacts;
 use crate::modes::impact::Impact;
 use crate::system::{Normal, ValueRef};
 use crate::trajectory::{EventKind, State, Subject};

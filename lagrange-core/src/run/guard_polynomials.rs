@@ -13,9 +13,9 @@ use crate::events::{Root, RootList, clearance, deflate, keeps_its_sign, turns};
 use crate::integrate::taylor::worse;
 use crate::integrate::{StepPolynomial, polynomial_value as at};
 use crate::mode::Mode;
+use crate::modes::composite::{self, CompositeGuard};
 use crate::modes::guard::{Guard, Linear, Sums};
 use crate::modes::reading::Reading;
-use crate::modes::redundant::{self, CompositeGuard};
 use crate::system::Description;
 
 /// A guard on the other side of zero than its polynomial is off by more than rounding explains: this much more is counted.
@@ -96,7 +96,7 @@ impl<T: Scalar> QuadBody<(&mut GuardPolynomials, &Dynamics<T>, &Mode, &[f64])> f
             curve.sums = match &curve.linear {
                 Some(linear) => linear.series(quad, &reading, powers, c),
                 None => {
-                    redundant::series(curve.guard, &guards.composites, mode, &reading, powers, c);
+                    composite::series(curve.guard, &guards.composites, mode, &reading, powers, c);
                     Sums::of(c)
                 }
             };
@@ -312,7 +312,7 @@ impl GuardPolynomials {
         let curve = &self.list[index];
         let value = match &curve.linear {
             Some(linear) => linear.value(&reading),
-            None => redundant::value(curve.guard, &self.composites, mode, &reading),
+            None => composite::value(curve.guard, &self.composites, mode, &reading),
         };
         value + curve.margin
     }

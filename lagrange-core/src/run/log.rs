@@ -4,7 +4,7 @@ use super::Run;
 use crate::arithmetic::Scalar;
 use crate::dynamics;
 use crate::mode::{FrictionMode, Mode};
-use crate::modes::decide::SwitchFacts;
+use crate::modes::facts::SwitchFacts;
 use crate::modes::impact::Impact;
 use crate::settings::{Awaited, Settings};
 use crate::system::Erased;

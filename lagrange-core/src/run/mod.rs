@@ -27,7 +27,7 @@ use crate::arithmetic::{Scalar, epsilon};
 use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
 use crate::error::Error;
 use crate::mode::Mode;
-use crate::modes::decide::{EvaluationPoint, SwitchContext, SwitchFacts};
+use crate::modes::facts::{EvaluationPoint, SwitchContext, SwitchFacts};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
 use crate::modes::start;

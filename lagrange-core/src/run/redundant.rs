@@ -8,9 +8,9 @@ use super::Run;
 use super::hit::Hit;
 use crate::arithmetic::Scalar;
 use crate::error::Error;
+use crate::modes::composite::{self, CompositeGuard};
 use crate::modes::guard::Guard;
 use crate::modes::reading::Reading;
-use crate::modes::redundant::{self, CompositeGuard};
 
 /// A composite guard above this (relative) is not about to fall.
 const BORDER: f64 = 1e-3;
@@ -191,6 +191,6 @@ impl<T: Scalar> Run<T> {
     fn joint_value(&self, composite: &CompositeGuard) -> f64 {
         let composites = core::slice::from_ref(composite);
         let reading = Reading::Values(&self.dynamics);
-        redundant::value(Guard::Composite(0), composites, &self.now.mode, &reading)
+        composite::value(Guard::Composite(0), composites, &self.now.mode, &reading)
     }
 }

@@ -14,12 +14,3 @@ pub fn runs<S: Scene>(method: Method, tolerance: f64) -> impl FnMut() -> Option<
     let mut runner = simulation.record(false).runner();
     move || S::seen(runner.run(&start, 0.0..S::UNTIL).ok()?)
 }
-
-/// Positions, then velocities, at the end of a run without events.
-pub fn end(trajectory: &Trajectory) -> Option<Vec<f64>> {
-    let end = trajectory.final_state();
-    trajectory
-        .events()
-        .is_empty()
-        .then(|| [&end.q[..], &end.v].concat())
-}

@@ -1,10 +1,11 @@
 //! The modes that the known facts allow: each choice of contacts, frictions and branches.
 
-use super::{SwitchContext, sticks};
+use super::sticks;
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, OutputMask};
 use crate::effects::Item;
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
+use crate::modes::facts::SwitchContext;
 use crate::modes::guard::{self, Guard};
 use crate::pool::Pool;
 use crate::system::{Description, Normal};
@@ -58,7 +59,7 @@ impl Candidates {
 #[derive(Clone, Debug)]
 struct Facts {
     present: Mode,
-    /// As in [`SwitchFacts`](super::SwitchFacts).
+    /// As in [`SwitchFacts`](crate::modes::facts::SwitchFacts).
     touching: Vec<bool>,
     resting: Vec<bool>,
     balanced: Vec<bool>,

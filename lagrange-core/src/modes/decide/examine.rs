@@ -1,16 +1,17 @@
 //! Whether one candidate mode is feasible: its guards just after the instant.
 
+use super::Decider;
 use super::questions::{concerns, leading, list_questions, unit_of_order};
-use super::{Decider, EvaluationPoint, SwitchContext, SwitchFacts};
 use crate::arithmetic::Scalar;
 use crate::arithmetic::products::ROW;
 use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
 use crate::integrate::Tolerance;
 use crate::integrate::taylor;
 use crate::mode::{FrictionMode, Mode};
+use crate::modes::composite::{self, CompositeGuard};
+use crate::modes::facts::{EvaluationPoint, SwitchContext, SwitchFacts};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
-use crate::modes::redundant::{self, CompositeGuard};
 use crate::modes::table::Table;
 use crate::system::ValueRef;
 
@@ -398,7 +399,7 @@ impl<T: Scalar> Decider<T> {
         let (reading, later) = (Reading::Series(ahead.dynamics), AHEAD * ahead.h);
         for _ in 0..MOST_JOINTS {
             let found = self.redundant.critical_at(|guard, plane| {
-                redundant::side(guard, plane, &self.posed, &reading, series);
+                composite::side(guard, plane, &self.posed, &reading, series);
                 crate::integrate::horner(series, later)
             });
             let Some(composite) = found else {
@@ -438,12 +439,12 @@ impl<T: Scalar> Decider<T> {
         } = ahead;
         let tolerance = here.moment.tolerance;
         let reading = Reading::Series(dynamics);
-        redundant::series(
+        composite::series(
             guard,
             &self.composites,
             &self.posed,
             &reading,
-            &redundant::ONES,
+            &composite::ONES,
             series,
         );
         series[..order_known].fill(0.0);
@@ -497,7 +498,7 @@ impl<T: Scalar> Decider<T> {
         });
         let sizes = left.map(|(row, known)| {
             let reading = Reading::Series(dynamics);
-            guard::series(row, &self.posed, &reading, &redundant::ONES, series);
+            guard::series(row, &self.posed, &reading, &composite::ONES, series);
             let powers = core::iter::successors(Some(1.0), |power| Some(power * h));
             let terms = series.iter().zip(powers).skip(known);
             let grows = terms.fold(0.0_f64, |largest, (c, power)| {

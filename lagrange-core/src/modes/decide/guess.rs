@@ -15,13 +15,14 @@
 //!
 //! Signs at the instant are not the last word (both members of a pair may vanish): the guess is where pivoting begins.
 
+use super::Decider;
 use super::candidates::{Choices, slide};
-use super::{Decider, SwitchContext, SwitchFacts};
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::effects::Item;
 use crate::linear::{Lemke, LemkeOutcome, SeveralSides};
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
+use crate::modes::facts::{SwitchContext, SwitchFacts};
 use crate::system::{Normal, ValueRef};
 
 /// A contact or friction that may change, and the generalized force of its unit force.

@@ -3,12 +3,13 @@
 //! ṡ(u) × u = 0 with ṡ·u > 0. Where the slip begins smoothly (equal coefficients of friction) ṡ vanishes at the answer, but
 //! ṡ × u still changes its sign there, unless the slip can have one direction only: then what it grows by next, s̈ × u, decides.
 
+use super::Decider;
 use super::questions::row_acceleration;
-use super::{Decider, EvaluationPoint};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::linear::{VanishingCombinations, solve_small};
 use crate::mode::{Direction, FrictionMode};
+use crate::modes::facts::EvaluationPoint;
 use crate::modes::redundant::RedundantForces;
 use crate::modes::table::Table;
 use core::f64::consts::TAU;

@@ -10,7 +10,6 @@
 
 mod candidates;
 mod examine;
-mod facts;
 mod guess;
 mod incipient;
 mod pivot;
@@ -20,15 +19,16 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
 use crate::error::Error;
 use crate::mode::{FrictionMode, Mode};
+use crate::modes::composite::CompositeGuard;
+use crate::modes::facts::{SwitchContext, SwitchFacts};
 use crate::modes::guard::{self, Guard};
 use crate::modes::held::HeldBranches;
 use crate::modes::reading::Reading;
-use crate::modes::redundant::{CompositeGuard, RedundantForces};
+use crate::modes::redundant::RedundantForces;
 use crate::modes::scale::Sizes;
 use crate::modes::table::Table;
 use crate::system::Description;
 use candidates::{Candidates, Listings, MOST_CANDIDATES};
-pub use facts::{EvaluationPoint, SwitchContext, SwitchFacts};
 use incipient::Beginning;
 
 /// The mode that goes on.

@@ -10,11 +10,12 @@
 //! Frictions begin by sticking where they can, so that stick comes before slip as in the enumeration; whether another mode
 //! would do as well is not asked.
 
+use super::Decider;
 use super::candidates::{Choices, look_at_slips, slide};
-use super::{Decider, SwitchContext};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
+use crate::modes::facts::SwitchContext;
 use crate::modes::guard::Guard;
 use crate::modes::table::Table;
 use crate::system::Normal;

@@ -1,12 +1,12 @@
 //! The questions that a candidate must answer, and what is known of the answers beforehand.
 
-use super::SwitchFacts;
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, OutputMask};
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
+use crate::modes::composite::{self, CompositeGuard};
+use crate::modes::facts::SwitchFacts;
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
-use crate::modes::redundant::{self, CompositeGuard};
 use crate::system::{Description, Normal};
 
 /// The first coefficient of a guard that is not known to vanish, times its factorial, as far as values tell.
@@ -20,7 +20,7 @@ pub(super) fn leading<T: Scalar>(
     let d = dynamics.description();
     let acceleration = |row: usize| row_acceleration(row, dynamics);
     match (guard, order_known) {
-        (_, 0) => Some(redundant::value(
+        (_, 0) => Some(composite::value(
             guard,
             composites,
             mode,

@@ -11,17 +11,16 @@
 //! together, where μs (N₁ + N₂) − (F₁ + F₂) falls through zero.
 
 mod bounds;
-mod composite;
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::linear::{Cone, ConicPoint, Freedom};
 use crate::mode::FrictionMode;
+use crate::modes::composite::{CompositeGuard, Part};
 use crate::modes::guard::{ConePlane, Guard};
 use crate::modes::scale::Sizes;
 use crate::system::{Friction, Normal};
 use bounds::{Bound, Bounds};
-pub use composite::{CompositeGuard, ONES, Part, series, side, value};
 use nalgebra::DVector;
 
 /// Undetermined forces at one state; the memory is reused.
