@@ -328,6 +328,13 @@ impl<T: Scalar> Dynamics<T> {
         self.given = false;
     }
 
+    /// Runs the report at (t, q, v) for needs that read neither accelerations nor forces: then read [`Self::report`].
+    pub(crate) fn report_of_state(&mut self, t: T, q: &[T], v: &[T]) {
+        self.given = false;
+        self.take_state(t, q, v);
+        self.report_value();
+    }
+
     /// Runs the report at the state of the last [`Self::value`], for the needs given to
     /// [`Self::set_report_needs`]: then read [`Self::report`].
     pub fn report_value(&mut self) {

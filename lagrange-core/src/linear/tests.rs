@@ -73,6 +73,7 @@ impl Builder {
             bias,
             position: None,
             velocity: self.place(velocity, false),
+            rheonomic: false,
             needs: RowNeeds {
                 jacobian: 0,
                 bias: 0,

@@ -15,6 +15,8 @@ pub struct Row {
     pub position: Option<ValueRef>,
     /// aᵢ v + bᵢ: the rate of g, or the velocity-level residual, or the slip. Need [`RowNeeds::velocity`].
     pub velocity: ValueRef,
+    /// Whether bᵢ is not zero: what it holds moves by itself, so that its force does work.
+    pub rheonomic: bool,
     /// What to hold to have each of these.
     pub needs: RowNeeds,
 }

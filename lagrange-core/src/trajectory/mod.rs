@@ -3,6 +3,7 @@
 mod by_handle;
 mod debug;
 mod display;
+mod energy;
 mod estimate;
 mod event;
 mod ledger;
@@ -12,10 +13,11 @@ mod sampler;
 pub use crate::handle::Subject;
 pub use crate::modes::impact::OtherImpact;
 pub use crate::state::{Starts, State};
+pub use energy::Energies;
 pub use estimate::{Difference, Estimate, Parting, Summary};
 pub(crate) use event::Around;
 pub use event::{Event, EventKind};
-pub use ledger::{Energies, Entry, Ledger};
+pub use ledger::{Entry, Ledger};
 pub use sampler::{Instant, Sampler};
 pub(crate) use sampler::{instant, report_everything};
 

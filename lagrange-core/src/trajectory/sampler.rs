@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::mode::{Direction, Mode};
 use crate::modes::guard;
 use crate::modes::redundant::RedundantForces;
-use crate::system::{Normal, ValueRef};
+use crate::system::{Description, Normal, ValueRef};
 
 /// Everything known at one time.
 #[derive(Clone)]
@@ -52,7 +52,7 @@ pub struct Instant<T> {
 #[derive(Debug)]
 pub struct Sampler<'a, T: Scalar> {
     trajectory: &'a Trajectory<T>,
-    dynamics: Dynamics<T>,
+    pub(super) dynamics: Dynamics<T>,
     redundant: RedundantForces<T>,
     /// What `dynamics` has been made ready for.
     mode: Option<Mode>,
@@ -60,13 +60,18 @@ pub struct Sampler<'a, T: Scalar> {
     segment: Option<usize>,
     /// Whether slips have been given directions for the present state.
     headed: bool,
-    state: State<T>,
+    pub(super) state: State<T>,
 }
 
 impl<'a, T: Scalar> Sampler<'a, T> {
     pub(crate) fn new(trajectory: &'a Trajectory<T>) -> Self {
         let mut dynamics = trajectory.dynamics();
         report_everything(&mut dynamics);
+        Self::with(trajectory, dynamics)
+    }
+
+    /// With equations that have been told what to report.
+    pub(super) fn with(trajectory: &'a Trajectory<T>, dynamics: Dynamics<T>) -> Self {
         Self {
             trajectory,
             dynamics,
@@ -96,30 +101,12 @@ impl<'a, T: Scalar> Sampler<'a, T> {
                 _ => Err(Error::NotRecorded),
             };
         }
-        if !(first..=last).contains(&t) {
-            return Err(Error::OutsideTrajectory {
-                time: t,
-                first,
-                last,
-            });
-        }
-        let after = trajectory.segments.partition_point(|s| s.t.value() <= t);
-        let index = after.saturating_sub(1);
-        match trajectory.segments.get(index) {
+        match self.locate(t)? {
             None => self.evaluate(T::from_f64(t), &trajectory.modes[0], &trajectory.start),
-            Some(segment) => {
+            Some((index, s)) => {
+                let segment = &trajectory.segments[index];
                 let mode = &trajectory.modes[segment.mode];
                 let time = T::from_f64(t);
-                let s = if segment.h.value() > 0.0 {
-                    (time - segment.t) / segment.h
-                } else {
-                    T::zero()
-                };
-                let s = if s.value() > segment.end.value() {
-                    segment.end
-                } else {
-                    s
-                };
                 let mut state = self.place(index, s)?;
                 if t == last && mode == trajectory.final_mode() {
                     // Beside it, the end of the last polynomial is off by rounding.
@@ -134,6 +121,35 @@ impl<'a, T: Scalar> Sampler<'a, T> {
                 instant
             }
         }
+    }
+
+    /// The segment with time `t`, s, and the part of it; `None` if the run made no step.
+    ///
+    /// # Errors
+    /// [`Error::OutsideTrajectory`].
+    pub(super) fn locate(&self, t: f64) -> Result<Option<(usize, T)>, Error> {
+        let trajectory = self.trajectory;
+        let (first, last) = (trajectory.first_time(), trajectory.last_time());
+        if !(first..=last).contains(&t) {
+            return Err(Error::OutsideTrajectory {
+                time: t,
+                first,
+                last,
+            });
+        }
+        let after = trajectory.segments.partition_point(|s| s.t.value() <= t);
+        let index = after.saturating_sub(1);
+        let Some(segment) = trajectory.segments.get(index) else {
+            return Ok(None);
+        };
+        // A step that ended where it began has no length.
+        let s = if segment.h.value() > 0.0 {
+            (T::from_f64(t) - segment.t) / segment.h
+        } else {
+            T::zero()
+        };
+        let ended = s.value() > segment.end.value();
+        Ok(Some((index, if ended { segment.end } else { s })))
     }
 
     pub(crate) fn evaluate_before(&mut self, event: &Event<T>) -> Result<Instant<T>, Error> {
@@ -163,19 +179,8 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         &self.dynamics
     }
 
-    /// The motion at part `s` of a segment.
-    pub(crate) fn inside(&mut self, index: usize, s: T) -> Result<Instant<T>, Error> {
-        let trajectory = self.trajectory;
-        let segment = &trajectory.segments[index];
-        let state = self.place(index, s)?;
-        let mode = &trajectory.modes[segment.mode];
-        let instant = self.evaluate_entered(segment.t + segment.h * s, mode, &state);
-        self.state = state;
-        instant
-    }
-
     /// The state at part `s` of a segment, which is entered; taken from `self.state`.
-    fn place(&mut self, index: usize, s: T) -> Result<State<T>, Error> {
+    pub(super) fn place(&mut self, index: usize, s: T) -> Result<State<T>, Error> {
         let trajectory = self.trajectory;
         let segment = &trajectory.segments[index];
         let mode = &trajectory.modes[segment.mode];
@@ -192,8 +197,10 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         Ok(core::mem::take(&mut self.state))
     }
 
-    fn enter(&mut self, mode: &Mode) {
-        if self.mode.as_ref() != Some(mode) {
+    /// Whether the mode is another one than before.
+    pub(super) fn enter(&mut self, mode: &Mode) -> bool {
+        let other = self.mode.as_ref() != Some(mode);
+        if other {
             self.mode = Some(mode.clone());
             self.segment = None;
             self.dynamics.set_mode(mode);
@@ -201,6 +208,7 @@ impl<'a, T: Scalar> Sampler<'a, T> {
             let needs = guard::all_row_needs(d, &OutputMask::new(d));
             self.dynamics.set_extra_needs(&needs);
         }
+        other
     }
 
     /// Where slips of two components come to rest at the end of a segment, rounding leaves them no direction there: they get
@@ -250,7 +258,7 @@ impl<'a, T: Scalar> Sampler<'a, T> {
     }
 
     /// The same in the mode or segment that has been entered.
-    fn evaluate_entered(
+    pub(super) fn evaluate_entered(
         &mut self,
         t: T,
         mode: &Mode,
@@ -269,45 +277,27 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         instant.mode.branches.clone_from(&mode.branches);
         Ok(instant)
     }
-
-    /// Power of every force, dissipation and row, and of explicit time, at part `s` of a segment; in the order of
-    /// [`super::ledger`].
-    pub(super) fn powers(&mut self, segment: usize, s: T, out: &mut [T]) -> Result<T, Error> {
-        let d = self.trajectory.description();
-        let instant = self.inside(segment, s)?;
-        let dynamics = &self.dynamics;
-        let items = (0..d.forces.len()).map(Item::Force);
-        let items = items.chain((0..d.dissipations.len()).map(Item::Dissipation));
-        let loads = d.forces.iter().chain(d.dissipations).map(|l| l.power);
-        let loads = items.zip(loads);
-        let loads = loads.map(|(item, power)| unless_left_out(dynamics, item, power));
-        let rows = d.rows.iter().enumerate().map(|(i, row)| {
-            // The power of λ is λ a·v: not zero where a surface moves.
-            let speed = row.jacobian.iter().fold(T::default(), |sum, &(j, place)| {
-                sum + dynamics.motion(place) * instant.state.v[j]
-            });
-            instant.forces[i] * speed
-        });
-        let time = core::iter::once(dynamics.report(d.energy.time_power));
-        for (out, power) in out.iter_mut().zip(loads.chain(rows).chain(time)) {
-            *out = power;
-        }
-        Ok(instant.kinetic)
-    }
 }
 
 /// Asks the report tape for all that an [`Instant`] holds.
 pub(crate) fn report_everything<T: Scalar>(dynamics: &mut Dynamics<T>) {
     let d = dynamics.description();
+    let mut needs = report_needs(d);
+    let observed = d.observes.iter().map(|o| o.need);
+    observed.for_each(|need| needs.insert(need));
+    add_branch_guards(d, &mut needs);
+    dynamics.set_report_needs(&needs);
+}
+
+/// What to hold for energies and powers.
+pub(super) fn report_needs(d: &Description) -> OutputMask {
     let mut needs = OutputMask::new(d);
     needs.insert(d.energy.need);
     let loads = d.forces.iter().chain(d.dissipations).map(|l| l.report_need);
-    loads
-        .chain(d.observes.iter().map(|o| o.need))
-        .for_each(|need| needs.insert(need));
-    // A run does not watch the branches of outputs alone.
+    loads.for_each(|need| needs.insert(need));
+    // A run does not watch branches of these alone.
     add_branch_guards(d, &mut needs);
-    dynamics.set_report_needs(&needs);
+    needs
 }
 
 /// Everything about a state in the present mode; all numbers of the rows and the report must have been asked for.
@@ -380,7 +370,7 @@ fn unless_left_out<T: Scalar>(dynamics: &Dynamics<T>, item: Item, place: ValueRe
 }
 
 /// The branches that only outputs use: a run does not watch them, so that the mode does not tell on which side they are.
-fn branches_of_outputs<T: Scalar>(dynamics: &Dynamics<T>) -> Vec<usize> {
+pub(super) fn branches_of_outputs<T: Scalar>(dynamics: &Dynamics<T>) -> Vec<usize> {
     let (d, effects) = (dynamics.description(), dynamics.effects());
     if d.branches.is_empty() {
         return Vec::new();

@@ -51,6 +51,38 @@ struct Ball {
     bounce: f64,
 }
 
+/// A block that a belt carries against a spring.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    potential(weight: mass * gravity * y),
+    potential(spring: stiffness/2 * x^2),
+    contact(belt: y >= 0),
+    friction(grip on belt: slip = der(x) - speed, static = 10, kinetic = 10),
+)]
+struct Belt {
+    mass: f64,
+    gravity: f64,
+    stiffness: f64,
+    speed: f64,
+}
+
+/// A block that is slowed down in proportion to the force of the floor.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    potential = mass * (gravity * y + if(t >= 1, 5, 3)),
+    constraint(floor: y == 0),
+    force(rub: x = -share * floor),
+)]
+struct Rubbed {
+    mass: f64,
+    gravity: f64,
+    share: f64,
+}
+
 fn work(ledger: &Ledger, name: &str, kind: &str) -> f64 {
     let mut entries = ledger.work.iter();
     let entry = entries.find(|e| e.name == name && e.kind == kind);
@@ -197,4 +229,43 @@ fn impacts_are_booked_when_they_happen_and_to_the_last() {
     }
     let outside = trajectory.ledgers(&[2.5]);
     assert!(matches!(outside, Err(Error::OutsideTrajectory { .. })));
+}
+
+/// Static friction does work where its slip is that beside something that moves; the force of a floor at rest does exactly none.
+#[test]
+fn a_belt_works_while_it_carries() {
+    let scene = Belt {
+        mass: 2.0,
+        gravity: 9.81,
+        stiffness: 30.0,
+        speed: 0.25,
+    };
+    let trajectory = run(&scene, State::new(vec![0.1, 0.0], vec![0.25, 0.0]), 4.0);
+    assert!(trajectory.events().is_empty());
+    for (t, ledger) in [0.5, 1.7, 4.0]
+        .into_iter()
+        .zip(trajectory.ledgers(&[0.5, 1.7, 4.0]).expect("recorded"))
+    {
+        let x = 0.1 + 0.25 * t;
+        let stretched = 15.0 * (x * x - 0.01);
+        agree("grip", work(&ledger, "grip", "friction"), stretched, 1e-13);
+        assert_eq!(work(&ledger, "belt", "contact"), 0.0);
+    }
+}
+
+/// A force that contains that of a constraint is known when the equations of motion are solved. A potential that jumps in time without
+/// a force is told as it is.
+#[test]
+fn a_force_in_proportion_to_another_is_booked() {
+    let scene = Rubbed {
+        mass: 2.0,
+        gravity: 10.0,
+        share: 0.1,
+    };
+    let trajectory = run(&scene, State::new(vec![0.0, 0.0], vec![3.0, 0.0]), 2.0);
+    let ledger = trajectory.ledger().expect("recorded");
+    // It is slowed down by 1 m/s² over 3 t − t²/2 = 4 m.
+    agree("rub", work(&ledger, "rub", "force"), -8.0, 1e-12);
+    assert_eq!((ledger.start.potential, ledger.end.potential), (6.0, 10.0));
+    agree("closure", ledger.closure, 4.0, 1e-12);
 }

@@ -277,6 +277,8 @@ pub struct Row<P> {
     pub position: Option<P>,
     /// a v + b
     pub velocity: P,
+    /// Whether b is not zero: what it holds moves by itself, so that its force does work.
+    pub rheonomic: bool,
     /// Needs: jacobian, bias, position, velocity.
     pub needs: [NeedId; 4],
 }

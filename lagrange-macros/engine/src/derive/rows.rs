@@ -22,6 +22,7 @@ struct Form {
     bias: ExprId,
     position: Option<ExprId>,
     velocity: ExprId,
+    rheonomic: bool,
 }
 
 /// All rows: constraints, contacts, slip components.
@@ -155,6 +156,7 @@ fn form(
         bias,
         position: None,
         velocity,
+        rheonomic: !pool.is_zero(drift),
     }
 }
 
@@ -177,6 +179,7 @@ fn write(
             .position
             .map(|g| sheet.motion(format!("position[{name}]"), needs[2], g)),
         velocity: sheet.motion(format!("{velocity}[{name}]"), needs[3], form.velocity),
+        rheonomic: form.rheonomic,
         needs,
     }
 }

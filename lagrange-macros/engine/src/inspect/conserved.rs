@@ -173,7 +173,7 @@ impl Work<'_> {
     }
 
     /// What takes energy, or gives some.
-    fn takers(&mut self) -> Vec<String> {
+    fn takers(&self) -> Vec<String> {
         let system = &self.equations.system;
         let mut takers: Vec<String> = Vec::new();
         let loads = system.forces.iter().map(|f| &f.name);
@@ -182,7 +182,7 @@ impl Work<'_> {
         let constraints = system.constraints.iter().map(|c| &c.name);
         let rows = constraints.chain(system.contacts.iter().map(|c| &c.name));
         for (row, name) in rows.enumerate() {
-            if self.does_work(row) {
+            if self.equations.structure.rows[row].rheonomic {
                 takers.push(format!("{} moves", name.text));
             }
         }
@@ -192,19 +192,6 @@ impl Work<'_> {
             takers.push("an impact takes some".to_owned());
         }
         takers
-    }
-
-    /// Whether a row holds something that moves by itself: its rate is not linear in v alone.
-    fn does_work(&mut self, row: usize) -> bool {
-        let numbers = &self.equations.structure.rows[row];
-        let velocity = self.output(numbers.velocity);
-        let system = &self.equations.system;
-        let velocities: Vec<_> = system.coordinates.iter().map(|c| c.velocity).collect();
-        let pool = self.pool();
-        let zero = pool.integer(0);
-        let rest: Vec<_> = velocities.into_iter().map(|v| (v, zero)).collect();
-        let drift = pool.substitute(velocity, &rest);
-        !pool.is_zero(drift)
     }
 
     /// Name of the item that a row belongs to.

@@ -182,7 +182,7 @@ structs! {
     Parameter { name documentation unit tex domain }
     Coordinate { name unit cyclic }
     Encoded { words numbers values outputs }
-    Row { jacobian bias position velocity needs }
+    Row { jacobian bias position velocity rheonomic needs }
     RowNeeds { jacobian bias position velocity }
     Coupling { coordinate row factor need }
     Effect { name need optional }

@@ -216,6 +216,7 @@ impl Writer<'_> {
                 quote!((#coordinate, #entry))
             });
             let (bias, position, velocity) = (self.place(row.bias), self.maybe(row.position), self.place(row.velocity));
+            let rheonomic = row.rheonomic;
             let [a, b, c, d] = row.needs.map(|need| index(need.0));
             quote! {
                 #core::__private::places::Row {
@@ -223,6 +224,7 @@ impl Writer<'_> {
                     bias: #bias,
                     position: #position,
                     velocity: #velocity,
+                    rheonomic: #rheonomic,
                     needs: #core::__private::places::RowNeeds { jacobian: #a, bias: #b, position: #c, velocity: #d },
                 }
             }
