@@ -18,6 +18,51 @@ pub(super) fn dot<T: Scalar>(x: &[T], y: &[T]) -> T {
     x.iter().zip(y).fold(T::zero(), |sum, (&x, &y)| sum + x * y)
 }
 
+/// Numbers that are looked at side by side.
+const WIDE: usize = 4;
+
+/// The larger one; a NaN never is.
+#[inline(always)]
+fn larger(largest: f64, magnitude: f64) -> f64 {
+    if magnitude > largest {
+        magnitude
+    } else {
+        largest
+    }
+}
+
+/// Largest magnitude.
+fn largest<T: Scalar>(row: &[T]) -> f64 {
+    let (blocks, rest) = row.as_chunks::<WIDE>();
+    let mut largest = [0.0; WIDE];
+    for block in blocks {
+        for (largest, x) in largest.iter_mut().zip(block) {
+            *largest = larger(*largest, x.value().abs());
+        }
+    }
+    let rest = rest.iter().map(|x| x.value().abs());
+    largest.into_iter().chain(rest).fold(0.0, larger)
+}
+
+/// Subtracts so many times another row; the largest magnitude that is left.
+fn subtract<T: Scalar>(row: &mut [T], factor: T, other: &[T]) -> f64 {
+    let (blocks, rest) = row.as_chunks_mut::<WIDE>();
+    let (others, rest_of_other) = other.as_chunks::<WIDE>();
+    let mut largest = [0.0; WIDE];
+    for (block, other) in blocks.iter_mut().zip(others) {
+        for ((largest, x), &y) in largest.iter_mut().zip(block).zip(other) {
+            *x -= factor * y;
+            *largest = larger(*largest, x.value().abs());
+        }
+    }
+    let mut left = largest.into_iter().fold(0.0, larger);
+    for (x, &y) in rest.iter_mut().zip(rest_of_other) {
+        *x -= factor * y;
+        left = larger(left, x.value().abs());
+    }
+    left
+}
+
 /// Factors of a square matrix; the memory is reused.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Lu<T> {
@@ -26,6 +71,8 @@ pub(crate) struct Lu<T> {
     factors: Vec<T>,
     rows: Vec<usize>,
     columns: Vec<usize>,
+    /// While the matrix is factored: the largest magnitude in the remaining block of each row.
+    largest: Vec<f64>,
     scratch: Vec<T>,
 }
 
@@ -35,6 +82,7 @@ impl<T: Scalar> Lu<T> {
         self.factors.reserve(size * size);
         self.rows.reserve(size);
         self.columns.reserve(size);
+        self.largest.reserve(size);
         self.scratch.reserve(size);
     }
 
@@ -96,15 +144,15 @@ impl<T: Scalar> Lu<T> {
         self.columns.extend(0..size);
         self.scratch.clear();
         self.scratch.resize(size, T::zero());
+        self.largest.clear();
+        self.largest
+            .extend(self.factors.chunks_exact(size.max(1)).map(largest));
         self.rank = size;
         for step in 0..size {
-            let (mut largest, mut row, mut column) = (0.0, step, step);
-            for i in step..size {
-                for j in step..size {
-                    let magnitude = self.factors[i * size + j].value().abs();
-                    if magnitude > largest {
-                        (largest, row, column) = (magnitude, i, j);
-                    }
+            let (mut largest, mut row) = (0.0, step);
+            for (i, &magnitude) in self.largest.iter().enumerate().skip(step) {
+                if magnitude > largest {
+                    (largest, row) = (magnitude, i);
                 }
             }
             // A NaN never wins the comparison; it shows in the solution.
@@ -112,18 +160,19 @@ impl<T: Scalar> Lu<T> {
                 self.rank = step;
                 return;
             }
-            self.swap(step, row, column);
+            let elements = &self.factors[row * size..(row + 1) * size];
+            let is_pivot = |x: &T| x.value().abs() == largest;
+            let column = elements[step..].iter().position(is_pivot);
+            self.swap(step, row, step + column.unwrap_or(0));
             let (upper, lower) = self.factors.split_at_mut((step + 1) * size);
             let pivot_row = &upper[step * size..];
             let inverse = T::one() / pivot_row[step];
-            for row in lower.chunks_exact_mut(size) {
-                if row[step].is_zero() {
-                    continue;
-                }
-                let factor = row[step] * inverse;
-                row[step] = factor;
-                for (x, &p) in row[step + 1..].iter_mut().zip(&pivot_row[step + 1..]) {
-                    *x -= factor * p;
+            let left = self.largest[step + 1..].iter_mut();
+            for (row, left) in lower.chunks_exact_mut(size).zip(left) {
+                if !row[step].is_zero() {
+                    let factor = row[step] * inverse;
+                    row[step] = factor;
+                    *left = subtract(&mut row[step + 1..], factor, &pivot_row[step + 1..]);
                 }
             }
         }
@@ -133,9 +182,9 @@ impl<T: Scalar> Lu<T> {
         let size = self.size;
         if row != step {
             self.rows.swap(step, row);
-            for j in 0..size {
-                self.factors.swap(step * size + j, row * size + j);
-            }
+            self.largest.swap(step, row);
+            let (upper, lower) = self.factors.split_at_mut(row * size);
+            upper[step * size..(step + 1) * size].swap_with_slice(&mut lower[..size]);
         }
         if column != step {
             self.columns.swap(step, column);

@@ -81,6 +81,8 @@ pub(crate) struct Solver<T> {
     size: usize,
     matrix: Vec<T>,
     scale: Vec<f64>,
+    /// Coordinates with hardly any inertia beside the others.
+    light: Vec<bool>,
     factors: Factors,
     direct: Direct<T>,
     lu: Lu<T>,
@@ -111,6 +113,7 @@ impl<T: Scalar> Solver<T> {
         let size = coordinates + rows;
         self.matrix.reserve(size * size);
         self.scale.reserve(size);
+        self.light.reserve(coordinates);
         self.taken.reserve(rows);
         self.aside.reserve(rows);
         self.shares.reserve(rows * rows);
@@ -225,39 +228,51 @@ impl<T: Scalar> Solver<T> {
 
     fn equilibrate(&mut self) {
         let (n, size) = (self.coordinates, self.size);
+        self.find_light();
         self.scale.clear();
         for j in 0..n {
             let inertia = self.matrix[j * size + j].value().abs();
-            let largest = (0..size)
-                .map(|i| self.matrix[i * size + j].value().abs())
-                .fold(0.0, f64::max);
-            self.scale.push(if inertia > 0.0 && !self.is_light(j) {
+            self.scale.push(if inertia > 0.0 && !self.light[j] {
                 inverse_root(inertia)
             } else {
+                let column = (0..size).map(|i| self.matrix[i * size + j].value().abs());
+                let largest = column.fold(0.0, f64::max);
                 inverse_root(largest * largest)
             });
         }
         for row in n..size {
-            let scaled = (0..n).map(|j| self.matrix[row * size + j].value().abs() * self.scale[j]);
-            let largest = scaled.fold(0.0, f64::max);
+            let scaled = self.matrix[row * size..][..n].iter().zip(&self.scale);
+            let largest = scaled.fold(0.0, |largest, (x, scale)| {
+                f64::max(largest, x.value().abs() * scale)
+            });
             self.scale.push(inverse_root(largest * largest));
         }
     }
 
-    /// Whether a row gets nearly all of its compliance Σ aₖ²/mₖ from coordinate `j`: scaled by such an inertia the others would vanish
-    /// beside it. The scalar part of a unit quaternion has hardly any inertia close to the attitude in which it is 1.
-    fn is_light(&self, j: usize) -> bool {
+    /// Finds the coordinates from which a row gets nearly all of its compliance Σ aₖ²/mₖ: scaled by such an inertia the others would
+    /// vanish beside it. The scalar part of a unit quaternion has hardly any inertia close to the attitude in which it is 1.
+    fn find_light(&mut self) {
         let (n, size) = (self.coordinates, self.size);
-        let compliance = |row: &[T], k: usize| {
-            let inertia = self.matrix[k * size + k].value().abs();
-            row[k].value() * row[k].value() / inertia
-        };
-        let mut rows = self.matrix[n * size..].chunks_exact(size);
-        rows.any(|row| {
-            let others = (0..n).filter(|&k| k != j && !row[k].is_zero());
-            let others: f64 = others.map(|k| compliance(row, k)).sum();
-            others > 0.0 && compliance(row, j) > LIGHT * others
-        })
+        self.light.clear();
+        self.light.resize(n, false);
+        for row in self.matrix[n * size..].chunks_exact(size.max(1)) {
+            let compliances = row[..n].iter().enumerate().filter(|(_, a)| !a.is_zero());
+            let compliances = compliances.map(|(k, a)| {
+                let inertia = self.matrix[k * size + k].value().abs();
+                (k, a.value() * a.value() / inertia)
+            });
+            let (mut most, mut of) = (0.0, n);
+            for (k, compliance) in compliances.clone() {
+                if compliance > most {
+                    (most, of) = (compliance, k);
+                }
+            }
+            let others = compliances.filter(|&(k, _)| k != of);
+            let others: f64 = others.map(|(_, compliance)| compliance).sum();
+            if others > 0.0 && most > LIGHT * others {
+                self.light[of] = true;
+            }
+        }
     }
 
     /// LU of the scaled matrix, the equations of rows set aside replaced by λ = 0 or, where that has an effect, by those of
