@@ -99,12 +99,12 @@ impl<T: Scalar> Dynamics<T> {
     /// each is determined (rows that do not act are). One-sided contacts and friction may not allow these: see
     /// [`Instant::forces`](crate::trajectory::Instant::forces).
     pub fn least_norm_forces(&self) -> (Vec<T>, Vec<bool>) {
-        let (acting_forces, freedom) = self.least_norm_of_acting();
+        let least = self.least_norm_of_acting();
         let mut determined = vec![true; self.description().rows.len()];
         for (i, &row) in self.acting_rows().iter().enumerate() {
-            determined[row] = freedom.is_determined(i);
+            determined[row] = least.freedom.is_determined(i);
         }
-        let forces = self.forces_of_acting(&acting_forces);
+        let forces = self.forces_of_acting(&least.forces);
         for slide in &self.compiled().pattern.slides {
             if let Some(source) = slide.source {
                 determined[slide.row] = determined[source];
@@ -114,7 +114,9 @@ impl<T: Scalar> Dynamics<T> {
     }
 
     /// Forces of the rows that act ([`Self::acting_rows`]), of least norm, and how else they could be.
-    pub(crate) fn least_norm_of_acting(&self) -> (Vec<T>, Freedom) {
+    ///
+    /// The multiplier of a unit quaternion is no force, and does not count: it is what all others leave along the quaternion.
+    pub(crate) fn least_norm_of_acting(&self) -> LeastForces<T> {
         let n = self.description().coordinates.len();
         let acting = self.acting_rows();
         let pattern = &self.compiled().pattern;
@@ -124,13 +126,30 @@ impl<T: Scalar> Dynamics<T> {
             columns[index * n + coordinate] += place.read(&self.compiled().constants, &nodes);
         }
         let mut forces: Vec<T> = acting.iter().map(|&row| self.force(row)).collect();
+        let attitudes = self.attitudes();
+        let attitudes = attitudes.map(|k| (k, split_off(k, &mut columns, n, &mut forces)));
+        let attitudes: Vec<_> = attitudes.collect();
         // What slides presses the columns apart: rows that depend on one another may have independent forces.
         let rank = match pattern.slides.is_empty() {
             true => self.independent_rows(),
             false => acting.len(),
         };
         let freedom = least_norm(&columns, n, rank, &mut forces);
-        (forces, freedom)
+        let mut least = LeastForces {
+            forces,
+            freedom,
+            attitudes,
+        };
+        let forces = least.forces.clone();
+        least.follow(&forces);
+        least
+    }
+
+    /// Of the rows that act, those that keep quaternions at unit length.
+    fn attitudes(&self) -> impl Iterator<Item = usize> + '_ {
+        let constraints = self.description().constraints.iter();
+        let rows = constraints.filter(|c| c.attitude.is_some()).map(|c| c.row);
+        rows.filter_map(|row| self.acting_rows().binary_search(&row).ok())
     }
 
     /// Forces of all rows, sliding frictions included, given those of the rows that act.
@@ -180,7 +199,7 @@ impl<T: Scalar> Dynamics<T> {
         }
         let mut forces = vec![T::default(); acting.len()];
         let open = least_norm(&rows, n, self.independent_rows(), &mut forces).dimension();
-        open > self.least_norm_of_acting().1.dimension()
+        open > self.least_norm_of_acting().freedom.dimension()
     }
 
     /// Outputs of the motion program, then those of the plan.
@@ -201,4 +220,51 @@ impl<T: Scalar> Dynamics<T> {
         let nodes = shape.nodes.iter();
         nodes.map(|register| registers[register.index()]).collect()
     }
+}
+
+/// Forces of the rows that act, of which some are not determined.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct LeastForces<T> {
+    /// Those of least norm.
+    pub(crate) forces: Vec<T>,
+    /// How else they could be, but for the multipliers of quaternions.
+    pub(crate) freedom: Freedom,
+    /// Multipliers of quaternions, and what each takes of the others.
+    attitudes: Vec<(usize, Vec<T>)>,
+}
+
+impl<T: Scalar> LeastForces<T> {
+    /// Changes the multipliers of quaternions as follows from `changes` of the others.
+    pub(crate) fn follow(&mut self, changes: &[T]) {
+        for (k, parts) in &self.attitudes {
+            let taken = parts.iter().zip(changes);
+            let taken = taken.fold(T::zero(), |sum, (&part, &change)| sum + part * change);
+            self.forces[*k] -= taken;
+        }
+    }
+}
+
+/// Takes out of all columns but number `k` what they have along that one, and gives it to force `k`; how much that is of each.
+fn split_off<T: Scalar>(k: usize, columns: &mut [T], n: usize, forces: &mut [T]) -> Vec<T> {
+    let along = columns[k * n..(k + 1) * n].to_vec();
+    let dot = |x: &[T]| (x.iter().zip(&along)).fold(T::zero(), |sum, (&x, &y)| sum + x * y);
+    let square = dot(&along);
+    let mut parts = vec![T::zero(); forces.len()];
+    if square.is_zero() {
+        return parts;
+    }
+    for (j, column) in columns
+        .chunks_exact_mut(n)
+        .enumerate()
+        .filter(|(j, _)| *j != k)
+    {
+        let part = dot(column) / square;
+        for (x, &y) in column.iter_mut().zip(&along) {
+            *x -= part * y;
+        }
+        let force = forces[j];
+        forces[k] += part * force;
+        parts[j] = part;
+    }
+    parts
 }

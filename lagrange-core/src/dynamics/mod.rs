@@ -23,6 +23,7 @@ pub(crate) mod tests;
 mod values;
 
 pub use error::{EvaluationError, row_name};
+pub(crate) use matrices::LeastForces;
 #[doc(hidden)]
 pub use output_mask::{OutputMask, add_branch_guards, add_guards};
 pub(crate) use packets::Packets;

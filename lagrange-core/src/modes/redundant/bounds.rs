@@ -230,7 +230,7 @@ impl<T: Scalar> RedundantForces<T> {
             }
         }
         if !self.bounds.list.is_empty() {
-            self.bounds.complete(self.least.len());
+            self.bounds.complete(self.least.forces.len());
         }
     }
 
@@ -244,8 +244,11 @@ impl<T: Scalar> RedundantForces<T> {
     ) {
         let changes = rows.map(|(terms, _)| {
             let largest = terms.iter().fold(0.0_f64, |m, (_, a)| m.max(a.abs()));
-            let change = DVector::from_fn(self.least.len(), |j, _| {
-                terms.iter().map(|&(i, a)| a * self.freedom.row(i)[j]).sum()
+            let change = DVector::from_fn(self.least.forces.len(), |j, _| {
+                terms
+                    .iter()
+                    .map(|&(i, a)| a * self.least.freedom.row(i)[j])
+                    .sum()
             });
             let share = if largest > 0.0 {
                 change.amax() / largest
@@ -260,7 +263,7 @@ impl<T: Scalar> RedundantForces<T> {
         let made_of = rows.iter().map(|(terms, constant)| {
             let parts = terms
                 .iter()
-                .map(|&(i, a)| (a * self.least[i].value()).abs());
+                .map(|&(i, a)| (a * self.least.forces[i].value()).abs());
             parts.sum::<f64>() + constant.abs()
         });
         let own = self.sizes.of(guard, dynamics);
@@ -278,7 +281,10 @@ impl<T: Scalar> RedundantForces<T> {
             normal_sign,
         });
         for ((terms, constant), (mut change, share)) in rows.into_iter().zip(changes) {
-            let value: f64 = terms.iter().map(|&(i, a)| a * self.least[i].value()).sum();
+            let value: f64 = terms
+                .iter()
+                .map(|&(i, a)| a * self.least.forces[i].value())
+                .sum();
             self.bounds.values.push(value + constant);
             if share <= CANCELLED {
                 change.fill(0.0);

@@ -13,8 +13,8 @@
 mod bounds;
 
 use crate::arithmetic::Scalar;
-use crate::dynamics::Dynamics;
-use crate::linear::{Cone, ConicPoint, Freedom};
+use crate::dynamics::{Dynamics, LeastForces};
+use crate::linear::{Cone, ConicPoint};
 use crate::mode::FrictionMode;
 use crate::modes::composite::{CompositeGuard, Part};
 use crate::modes::guard::{ConePlane, Guard};
@@ -26,8 +26,7 @@ use nalgebra::DVector;
 /// Undetermined forces at one state; the memory is reused.
 #[derive(Clone, Debug, Default)]
 pub struct RedundantForces<T> {
-    least: Vec<T>,
-    freedom: Freedom,
+    least: LeastForces<T>,
     /// Signs of the forces of constraints, for the frictions that they carry.
     signs: Vec<f64>,
     bounds: Bounds,
@@ -50,7 +49,7 @@ impl<T: Scalar> RedundantForces<T> {
     /// Forgets everything: all forces are determined.
     pub fn clear(&mut self) {
         self.bounds.clear();
-        self.least.clear();
+        self.least.forces.clear();
     }
 
     /// Looks at the last value of `dynamics`, and chooses the signs of constraint forces that carry friction.
@@ -75,7 +74,7 @@ impl<T: Scalar> RedundantForces<T> {
         if !dynamics.has_dependent_rows() {
             return false;
         }
-        (self.least, self.freedom) = dynamics.least_norm_of_acting();
+        self.least = dynamics.least_norm_of_acting();
         self.sizes.take(dynamics);
         true
     }
@@ -87,7 +86,7 @@ impl<T: Scalar> RedundantForces<T> {
         let acting = dynamics.acting_rows();
         let index = |i: usize| acting.binary_search(&d.constraints[i].row).ok();
         let of_least = |i: usize| match index(i) {
-            Some(k) if self.least[k].value() < 0.0 => -1.0,
+            Some(k) if self.least.forces[k].value() < 0.0 => -1.0,
             _ => 1.0,
         };
         self.signs = (0..d.constraints.len()).map(of_least).collect();
@@ -151,7 +150,7 @@ impl<T: Scalar> RedundantForces<T> {
                     && dynamics.mode().frictions[f] == FrictionMode::Stick
             };
             let force = acting.binary_search(&d.constraints[*i].row);
-            force.is_ok_and(|k| !self.freedom.is_determined(k))
+            force.is_ok_and(|k| !self.least.freedom.is_determined(k))
                 && d.frictions.iter().enumerate().any(sticks)
         };
         let open: Vec<usize> = (0..self.signs.len())
@@ -253,26 +252,28 @@ impl<T: Scalar> RedundantForces<T> {
 
     /// The forces of all rows: those of least norm within the bounds, or as near to that as any are.
     fn forces(&self, dynamics: &Dynamics<T>) -> Vec<T> {
-        if self.least.is_empty() {
+        if self.least.forces.is_empty() {
             let rows = 0..dynamics.description().rows.len();
             return rows.map(|row| dynamics.force(row)).collect();
         }
-        let mut forces = self.least.clone();
-        if self.has_open() {
-            for (force, &change) in forces.iter_mut().zip(&self.shares()) {
-                if change != 0.0 {
-                    *force += T::from_f64(change);
-                }
-            }
+        if !self.has_open() {
+            return dynamics.forces_of_acting(&self.least.forces);
         }
-        dynamics.forces_of_acting(&forces)
+        let shares = self.shares();
+        let changes: Vec<T> = shares.iter().map(|&change| T::from_f64(change)).collect();
+        let mut shared = self.least.clone();
+        for (force, &change) in shared.forces.iter_mut().zip(&changes) {
+            *force += change;
+        }
+        shared.follow(&changes);
+        dynamics.forces_of_acting(&shared.forces)
     }
 
     /// What takes the forces of least norm to those of least norm that keep all bounds, or come as near to that as any do.
     fn shares(&self) -> DVector<f64> {
         let bounds = &self.bounds;
         if bounds.least(&bounds.values) >= 0.0 {
-            return DVector::zeros(self.least.len());
+            return DVector::zeros(self.least.forces.len());
         }
         let free = bounds.basis.ncols();
         let widest = bounds.widest(&bounds.values, 1.0).x;
@@ -285,11 +286,11 @@ impl<T: Scalar> RedundantForces<T> {
         let d = dynamics.description();
         out.clear();
         out.resize(d.rows.len(), false);
-        if self.least.is_empty() {
+        if self.least.forces.is_empty() {
             return;
         }
         for (i, &row) in dynamics.acting_rows().iter().enumerate() {
-            out[row] = !self.freedom.is_determined(i);
+            out[row] = !self.least.freedom.is_determined(i);
         }
         for (f, friction) in d.frictions.iter().enumerate() {
             let source = match friction.normal {

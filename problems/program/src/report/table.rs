@@ -6,7 +6,7 @@
 use super::telling;
 use super::words::{FEW, MANY, in_table, switch_in_table};
 use crate::notation::{is_angle, symbol};
-use crate::outcome::{Force, Outcome, Sample, forces};
+use crate::outcome::{Force, Outcome, Sample, Source, forces};
 use comfy_table::{
     CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, Table, TableStyle, Width,
 };
@@ -295,6 +295,27 @@ fn shown(description: &Description, forces: usize) -> Vec<Column> {
     places.into_iter().map(column).collect()
 }
 
+/// As many as the lines need. A component of a friction that is nothing but error beside the other one is shown like that one.
+fn decimals_of_forces(items: &[Force], lines: &[Line], tolerance: f64) -> Vec<Decimals> {
+    let told = |k: usize| {
+        let sides = lines.iter().flat_map(|line| [&line.upper, &line.lower]);
+        sides.filter_map(move |forces| *forces.get(k)?)
+    };
+    let largest = |k: usize| told(k).fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    let whole = |source: Source| {
+        let components = (0..items.len()).filter(|&k| items[k].source == source);
+        components.map(largest).fold(0.0, f64::max)
+    };
+    let decimals = |(k, item): (usize, &Force)| {
+        let whole = whole(item.source);
+        match largest(k) < tolerance * whole {
+            true => Decimals::of([whole]),
+            false => Decimals::of(told(k)),
+        }
+    };
+    items.iter().enumerate().map(decimals).collect()
+}
+
 fn story(outcome: &Outcome) -> Table {
     let items = forces(outcome.description);
     let lines = entries(outcome, &items);
@@ -322,16 +343,7 @@ fn story(outcome: &Outcome) -> Table {
         .iter()
         .map(|column| column.decimals(&lines, outcome))
         .collect();
-    let of_forces: Vec<Decimals> = (0..items.len())
-        .map(|k| {
-            Decimals::of(
-                lines
-                    .iter()
-                    .flat_map(|line| [&line.upper, &line.lower])
-                    .filter_map(|f| *f.get(k)?),
-            )
-        })
-        .collect();
+    let of_forces = decimals_of_forces(&items, &lines, outcome.tolerance);
     for line in &lines {
         let mut row = vec![time(line.time)];
         if estimated {
@@ -589,6 +601,21 @@ mod tests {
         assert_eq!(
             lines.iter().filter(|line| line.contains(middle)).count(),
             2,
+            "{lines:#?}"
+        );
+    }
+
+    /// A puck that is pushed along one of two directions that are not those of its coordinates.
+    #[test]
+    fn what_is_error_across_a_friction_is_shown_as_zero() {
+        let lines = story(
+            "coordinates(a, b), parameters(c = 0.6, s = 0.8, f = 3, g = 1), kinetic = (der(a)^2 + der(b)^2) / 2,
+             force(push: f * t along c * der(a) + s * der(b)),
+             friction(table: slip = (c * der(a) + s * der(b), c * der(b) - s * der(a)), limit = g), start(rest: a = 0), until = 1,",
+        );
+        let slips = lines.iter().find(|line| line.contains("table slips"));
+        assert!(
+            slips.is_some_and(|line| line.contains("-1.0000 0.0000")),
             "{lines:#?}"
         );
     }

@@ -299,3 +299,60 @@ fn forces_of_a_cabin_that_stays_upright_balance() {
         }
     }
 }
+
+/// A box on four feet, turned about the vertical, that is pushed along its length at the height of its mass centre.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, z),
+    attitude(body: q),
+    define(
+        place[k in 0..4] = [x, y, z] + a[k] * body.axes[0] + b[k] * body.axes[1] - height * body.axes[2],
+    ),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2 + der(z)^2)
+        + inertia/2 * (body.body_rate[0]^2 + body.body_rate[1]^2 + body.body_rate[2]^2),
+    potential = mass * gravity * z,
+    force(push: (strength * cos(yaw), strength * sin(yaw), 0) at (x, y, z)),
+    contact(foot[k in 0..4]: place[k][2] >= 0),
+    friction(grip[k in 0..4] on foot[k]: slip = (der(place[k][0]), der(place[k][1])), static = 0.5),
+    start(stands: z = height, q[0] = cos(yaw/2), q[3] = sin(yaw/2)),
+)]
+struct PushedBox {
+    mass: f64,
+    inertia: f64,
+    gravity: f64,
+    a: [f64; 4],
+    b: [f64; 4],
+    height: f64,
+    yaw: f64,
+    strength: f64,
+}
+
+/// Least are loads that are linear in the places of the feet, and equal frictions: the multiplier of a unit quaternion does not count, or
+/// feet of a box that nothing pushes would spread it.
+#[test]
+fn feet_of_a_box_at_rest_do_not_spread_it() {
+    for (yaw, strength) in [(0.0, 0.0), (0.7, 0.0), (0.7, 20.0), (-2.4, 11.0)] {
+        let scene = PushedBox {
+            mass: 10.0,
+            inertia: 0.5,
+            gravity: 9.81,
+            a: [0.5, 0.5, -0.5, -0.5],
+            b: [0.3, -0.3, 0.3, -0.3],
+            height: 0.3,
+            yaw,
+            strength,
+        };
+        let run = Simulation::new(&scene).run(scene.at(PushedBox::STANDS), 0.0..1.0);
+        let run = run.expect("a run");
+        assert!(run.events().is_empty());
+        let now = run.sampler().at(0.5).expect("recorded");
+        let lever = strength * scene.height / (4.0 * 0.5);
+        for (k, a) in scene.a.into_iter().enumerate() {
+            let load = scene.mass * scene.gravity / 4.0 + lever * a.signum();
+            agree("load", now.force(PushedBox::FOOT[k]), load, 1e-11);
+            let share = [yaw.cos(), yaw.sin()].map(|part| -strength / 4.0 * part);
+            all_agree("grip", now.friction(PushedBox::GRIP[k]), &share, 1e-10);
+        }
+        assert!(run.verify(0).expect("a certificate").holds());
+    }
+}
