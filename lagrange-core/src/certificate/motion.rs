@@ -265,7 +265,8 @@ impl<T: Scalar> Examination<'_, T> {
         self.join(record.last_time(), &last);
     }
 
-    /// A slip of two components comes to rest a moment after the step before: until then the motion goes on as that step ends.
+    /// A slip of two components comes to rest a moment after the step before: until then the motion goes on as that step ends, unless it ends
+    /// with an impact, the last before infinitely many that take this time.
     fn bridge(&mut self, k: usize) {
         let record = self.record;
         let Some(before) = k.checked_sub(1).map(|k| &record.segments[k]) else {
@@ -277,7 +278,9 @@ impl<T: Scalar> Examination<'_, T> {
             matches!(state, FrictionMode::Slip(_)) && friction.components > 1
         };
         let mut frictions = self.modes[before.mode].frictions.iter().zip(d.frictions);
-        if !(left > 0.0 && frictions.any(slips)) {
+        let next = record.events().get(self.events);
+        let ends = next.is_some_and(|event| event.time.value() <= self.time);
+        if ends || !(left > 0.0 && frictions.any(slips)) {
             return;
         }
         self.enter(before);

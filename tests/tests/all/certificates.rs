@@ -122,3 +122,43 @@ fn slips_that_come_to_rest_at_tight_tolerances_are_neither_jumps_nor_wrong_force
         assert!(check.holds() && check.count > 100, "{check:?}");
     }
 }
+
+/// A ball bounces beside a puck that slides.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, z),
+    kinetic = (der(x)^2 + der(y)^2 + der(z)^2) / 2,
+    potential = gravity * z,
+    contact(floor: z >= 0, restitution = bounce),
+    friction(table: slip = (der(x), der(y)), limit = hold),
+)]
+struct BallBesidePuck {
+    gravity: f64,
+    bounce: f64,
+    hold: f64,
+}
+
+/// The time of infinitely many bounces is between two steps while a slip of two components goes on: the impact before it is the one that
+/// the step before ends with.
+#[test]
+fn what_slides_while_a_ball_comes_to_rest_is_certified() {
+    let scene = BallBesidePuck {
+        gravity: 10.0,
+        bounce: 0.5,
+        hold: 1e-4,
+    };
+    for tolerance in [1e-4, 1e-6, 1e-9] {
+        let start = State::new(vec![0.0, 0.0, 0.2], vec![3e-4, 1e-4, 0.0]);
+        let run = Simulation::new(&scene)
+            .tolerance(tolerance)
+            .run(start, 0.0..2.0)
+            .expect("a run");
+        // It falls for 0.2 s, and then bounces for 0.2 s, 0.1 s, ….
+        let mut events = run.events().iter();
+        let rests = events.find(|event| event.kind == EventKind::Closed);
+        let rests = rests.expect("it comes to rest").time;
+        assert!((rests - 0.6).abs() < 10.0 * tolerance, "{rests}");
+        let certificate = run.verify(1).expect("recorded");
+        assert!(certificate.holds(), "{certificate}");
+    }
+}
