@@ -41,6 +41,13 @@ impl<T: Scalar> Equilibrated<T> {
         self.lu.rank() < self.size
     }
 
+    /// Gives each row that depends on others as a combination of those: the row, one of these, and its factor.
+    pub(crate) fn combine(&self, mut put: impl FnMut(usize, usize, T)) {
+        let scale = &self.row_scale;
+        self.lu
+            .combine(|i, k, factor| put(i, k, factor * T::from_f64(scale[k] / scale[i])));
+    }
+
     /// Replaces b by x. Where rows depend on each other the superfluous unknowns are 0. False if the system contradicts
     /// itself, or x is not finite.
     pub(crate) fn solve(&mut self, b: &mut [T]) -> bool {

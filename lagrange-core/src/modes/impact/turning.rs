@@ -5,7 +5,7 @@
 //! ```
 
 use super::collision::{Collision, FrictionRow, NormalSource};
-use super::pattern::{Pattern, Phase, Slide, aim};
+use super::pattern::{Pattern, Phase, Slide};
 use crate::arithmetic::Scalar;
 
 /// Newton steps for directions of slip.
@@ -34,13 +34,15 @@ impl<T: Scalar> Pattern<T> {
             matrix.clear();
             right.clear();
             // A turning friction brings nothing along here: its impulses are unknowns.
-            for &i in &self.unknowns[..linear] {
-                let row = self
-                    .unknowns
-                    .iter()
-                    .map(|&row| self.plain_effect(c, i, row));
-                matrix.extend(row);
-                right.push(aim(c, phase, i) - self.after[i]);
+            for (at, &i) in self.unknowns[..linear].iter().enumerate() {
+                match self.share_at(at) {
+                    Some(share) => share.write(count, &mut matrix),
+                    None => {
+                        let all = self.unknowns.iter();
+                        matrix.extend(all.map(|&row| self.plain_effect(c, i, row)));
+                    }
+                }
+                right.push(self.missing(c, phase, at));
             }
             let mut regular = true;
             for (rub, slide) in c.rubs.iter().zip(&self.slides) {

@@ -10,11 +10,13 @@
 //! With two slip components the direction s⁺/|s⁺| is an unknown too: Newton's method from a given direction.
 
 mod judgement;
+mod shares;
 
 use super::collision::{Collision, FrictionRow, NormalSource};
 use crate::arithmetic::Scalar;
 use crate::linear::{Equilibrated, least_norm};
 pub(super) use judgement::Violation;
+pub(super) use shares::Share;
 
 /// Rounding relative to the terms that a rate is summed from.
 pub(super) const ROUNDING: f64 = 1e-13;
@@ -62,6 +64,9 @@ pub(super) struct Pattern<T> {
     /// Whether impulses are not determined (they are then of least norm).
     pub undetermined: bool,
     pub(super) unknowns: Vec<usize>,
+    /// In the place of equations that say nothing new: how impulses are shared.
+    pub(super) shares: Vec<Share<T>>,
+    dependence: Equilibrated<T>,
     pub(super) matrix: Vec<T>,
     pub(super) right: Vec<T>,
     pub(super) factors: Equilibrated<T>,
@@ -113,6 +118,7 @@ impl<T: Scalar> Pattern<T> {
                 self.impulses[touch.row] = phase.least[k];
             }
         }
+        self.find_shares(c);
         for (rub, slide) in c.rubs.iter().zip(&self.slides) {
             if *slide == Slide::Stick {
                 self.unknowns.extend(rub.row..rub.row + rub.components);
@@ -141,8 +147,11 @@ impl<T: Scalar> Pattern<T> {
         let count = self.unknowns.len();
         let mut matrix = core::mem::take(&mut self.matrix);
         matrix.clear();
-        for &i in &self.unknowns {
-            matrix.extend(self.unknowns.iter().map(|&row| self.effect(c, i, row)));
+        for (at, &i) in self.unknowns.iter().enumerate() {
+            match self.share_at(at) {
+                Some(share) => share.write(count, &mut matrix),
+                None => matrix.extend(self.unknowns.iter().map(|&row| self.effect(c, i, row))),
+            }
         }
         self.factors.factor(&mut matrix, count);
         self.matrix = matrix;
@@ -152,13 +161,9 @@ impl<T: Scalar> Pattern<T> {
         for _ in 0..2 {
             self.slide(c);
             self.move_on(c, phase);
-            self.right.clear();
-            let missing = self
-                .unknowns
-                .iter()
-                .map(|&i| aim(c, phase, i) - self.after[i]);
-            self.right.extend(missing);
             let mut right = core::mem::take(&mut self.right);
+            right.clear();
+            right.extend((0..count).map(|at| self.missing(c, phase, at)));
             self.factors.solve(&mut right);
             for (&row, &x) in self.unknowns.iter().zip(&right) {
                 self.impulses[row] += x;
@@ -175,6 +180,17 @@ impl<T: Scalar> Pattern<T> {
         let far =
             |&i: &usize| (self.after[i] - aim(c, phase, i)).value().abs() > 10.0 * self.noise[i];
         !self.unknowns.iter().any(far)
+    }
+
+    /// What is missing in the equation of an unknown.
+    pub(super) fn missing(&self, c: &Collision<T>, phase: &Phase<T>, at: usize) -> T {
+        match self.share_at(at) {
+            Some(share) => -share.sum(&self.unknowns, &self.impulses),
+            None => {
+                let row = self.unknowns[at];
+                aim(c, phase, row) - self.after[row]
+            }
+        }
     }
 
     /// Impulses that are not determined: of all with the same effect those of least norm.
@@ -239,7 +255,7 @@ fn fixed(slide: &Slide) -> Option<[f64; 2]> {
 }
 
 /// The rate that row `i` is to have if it is an equation.
-pub(super) fn aim<T: Scalar>(c: &Collision<T>, phase: &Phase<T>, i: usize) -> T {
+fn aim<T: Scalar>(c: &Collision<T>, phase: &Phase<T>, i: usize) -> T {
     let first = c.touches.first().map_or(usize::MAX, |touch| touch.row);
     match i.checked_sub(first).and_then(|k| phase.aims.get(k)) {
         Some(&aim) => aim,
