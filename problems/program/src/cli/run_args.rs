@@ -1,7 +1,7 @@
 //! Which run of a scene is meant: arguments that several commands share, and the request that they make.
 
 use super::Trouble;
-use super::values::{error, events, named, named_positive, positive, tolerance};
+use super::values::{error, events, held, named, named_positive, positive, tolerance};
 use crate::catalogue::Catalogue;
 use crate::file::ENDING;
 use crate::names::method;
@@ -53,7 +53,7 @@ pub(super) struct Motion {
     from: Option<String>,
     /// Hold a coordinate (theta=0.1) or velocity ("der(theta)=2") at the start; the others follow from the named
     /// start: constraints hold, contacts closed there stay closed, slips zero there stay zero. May be repeated.
-    #[arg(long, value_name = "NAME=VALUE", value_parser = named, allow_hyphen_values = true)]
+    #[arg(long, value_name = "NAME=VALUE", value_parser = held, allow_hyphen_values = true)]
     start: Vec<(String, f64)>,
     /// Switch an effect on that the scene file has switched off; may be repeated.
     #[arg(long, value_name = "ITEM")]

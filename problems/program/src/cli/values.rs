@@ -23,6 +23,17 @@ pub(super) fn named(text: &str) -> Result<(String, f64), String> {
     Ok((name.to_owned(), finite(value)?))
 }
 
+/// `name=value` of a coordinate or velocity at the start; a word alone may be meant as a named start.
+pub(super) fn held(text: &str) -> Result<(String, f64), String> {
+    named(text).map_err(|reason| match text.contains('=') {
+        true => reason,
+        false => format!(
+            "{reason}; a named start is chosen with --from {}",
+            text.trim()
+        ),
+    })
+}
+
 /// `name=value`, the value above zero.
 pub(super) fn named_positive(text: &str) -> Result<(String, f64), String> {
     match named(text)? {
@@ -135,6 +146,10 @@ mod tests {
         assert_eq!(named(" mass = 2 "), Ok(("mass".to_owned(), 2.0)));
         let forgotten = "expected name=value, for example der(x)=2";
         assert_eq!(named("der(x)"), Err(forgotten.to_owned()));
+        let start =
+            "expected name=value, for example rest=2; a named start is chosen with --from rest";
+        assert_eq!(held("rest"), Err(start.to_owned()));
+        assert_eq!(held("x=two"), named("x=two"));
         for wrong in [
             "mass",
             "=2",
