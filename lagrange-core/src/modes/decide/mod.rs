@@ -372,7 +372,9 @@ impl<T: Scalar> Decider<T> {
         let located = &here.facts.located;
         let can =
             |guard: &Guard| guard.is_force() || matches!(guard, Guard::Slip(_) | Guard::Branch(_));
-        if here.facts.again || !here.ends(here.present) || !located.iter().all(can) {
+        // A slip that rises again has been put below zero by what moved the state onto its constraints, however often that is seen.
+        let for_ever = here.facts.again && located.iter().any(|guard| guard.is_force());
+        if for_ever || !here.ends(here.present) || !located.iter().all(can) {
             return false;
         }
         self.decision.expanded = false;
