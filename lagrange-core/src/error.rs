@@ -394,17 +394,15 @@ impl fmt::Display for Error {
                 )?;
                 // Conditions are told as they are written; names have no blanks.
                 if *branches && item.contains(' ') {
-                    f.write_str("on either side of it the motion is driven back to the other, as by a controller that switches: let the force change over a short range; ")?;
-                } else if *friction {
-                    f.write_str("rigid friction may have no solution (Painlevé 1895): lower its coefficient or make the contact compliant; ")?;
+                    f.write_str("on either side of it the motion is driven back to the other, as by a controller that switches: let the force change over a short range, or declare one that jumps with the sign of a velocity as a friction; ")?;
                 } else {
-                    f.write_str("contacts that move may leave no room between them; ")?;
-                }
-                if *friction || *branches {
-                    f.write_str("a force that jumps with the sign of a velocity is declared as a friction; ")?;
-                }
-                if *branches {
-                    f.write_str("a force that jumps at the surface of a contact may push what touches away and let it fall back at once: let it change over a distance; ")?;
+                    f.write_str(match friction {
+                        true => "rigid friction may have no solution (Painlevé 1895): lower its coefficient or make the contact compliant; ",
+                        false => "contacts that move may leave no room between them; ",
+                    })?;
+                    if *branches {
+                        f.write_str("a force that jumps with the sign of a velocity is declared as a friction; one that jumps at the surface of a contact may push what touches away and let it fall back at once: let it change over a distance; ")?;
+                    }
                 }
                 f.write_str("else ask for a smaller tolerance")
             }
@@ -487,7 +485,19 @@ impl Error {
     ) -> Error {
         let mode = mode.display(description).to_string();
         let item = error.item(description);
+        let turns = |name: &str| {
+            let mut frictions = description.frictions.iter();
+            frictions.any(|friction| friction.name == name && friction.components > 1)
+        };
         match error {
+            root if root.is_of_root() && item.is_some_and(turns) => Error::Singular {
+                time,
+                mode,
+                items: item.into_iter().collect(),
+                reason: "where a slip of two components begins, `norm(slip)` has no Taylor series: write \
+                         `sqrt(dot(slip, slip) + v0^2)` in its place, with a small speed v0"
+                    .to_owned(),
+            },
             EvaluationError::NotFiniteAcceleration { .. }
             | EvaluationError::NotFiniteForce { .. } => {
                 let what = format!(

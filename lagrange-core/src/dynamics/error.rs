@@ -85,6 +85,17 @@ impl EvaluationError {
             Self::NoSeries { item, .. } => item,
         }
     }
+
+    /// Whether a square root has no Taylor series.
+    pub fn is_of_root(&self) -> bool {
+        matches!(
+            self,
+            Self::NoSeries {
+                operation: Operation::SquareRoot,
+                ..
+            }
+        )
+    }
 }
 
 impl fmt::Display for EvaluationError {

@@ -32,7 +32,7 @@ impl<T: Scalar> Run<T> {
     }
 
     /// The same error, which says so if numbers overflow where one is not finite.
-    fn overflow(&self, mut error: Error) -> Error {
+    pub(super) fn overflow(&self, mut error: Error) -> Error {
         if let Error::NotFinite { cause, .. } = &mut error {
             let (system, effects) = (self.dynamics.system(), self.dynamics.effects());
             if exponents::overflow(system, effects, self.now.t, &self.now.state) {

@@ -14,6 +14,11 @@ impl<T: Scalar> Run<T> {
         time: f64,
         state: &State<T>,
     ) -> Result<Vec<Instant<T>>, Error> {
+        let listed = self.list_feasible(time, state);
+        listed.map_err(|error| self.overflow(error))
+    }
+
+    fn list_feasible(&mut self, time: f64, state: &State<T>) -> Result<Vec<Instant<T>>, Error> {
         let system = self.dynamics.system();
         self.settings.check(&**system, state, &(time..time))?;
         self.now.t = T::from_f64(time);

@@ -264,8 +264,8 @@ impl<T: Scalar> Run<T> {
         self.switcher.restart();
         self.recorder.awaited.clone_from(&self.settings.last_events);
         (self.recorder.events_before, self.recorder.finished) = (0, false);
-        self.enter_start()?;
-        self.settle()?;
+        let begun = self.enter_start().and_then(|()| self.settle());
+        begun.map_err(|error| self.overflow(error))?;
         self.begin_sides();
         self.recorder.finished |= self.has_seen_all();
         Ok(())

@@ -14,6 +14,7 @@ mod guess;
 mod incipient;
 mod pivot;
 mod questions;
+mod together;
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
@@ -146,6 +147,33 @@ impl<T: Scalar> Decider<T> {
         here: SwitchContext<'_, T>,
     ) -> Result<(), Error> {
         let d = dynamics.description();
+        let time = here.moment.t.value();
+        let refused = match self.decide_with(dynamics, table, here) {
+            Ok(true) => None,
+            Ok(false) => Some(self.no_mode(dynamics, here)),
+            Err(error) => Some(Error::from_evaluation(error, time, dynamics.mode(), d)),
+        };
+        if let Some(error) = refused
+            && !self.goes_on(dynamics, table, here)
+            && !self.decide_together(dynamics, table, here)
+        {
+            return Err(error);
+        }
+        self.decision.mode.clone_from(&self.best);
+        dynamics.set_mode(&self.best);
+        Ok(())
+    }
+
+    /// Looks for a feasible mode, into `self.best`. False: there is none.
+    ///
+    /// # Errors
+    /// None was found, and one could not be evaluated.
+    fn decide_with(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        table: &mut Table,
+        here: SwitchContext<'_, T>,
+    ) -> Result<bool, EvaluationError> {
         let mut listings = core::mem::take(&mut self.listings);
         let scratch = &mut self.decision.mode;
         (self.tried, self.sized) = (0, false);
@@ -161,21 +189,23 @@ impl<T: Scalar> Decider<T> {
             self.lies_loosely = false;
         }
         self.listings = listings;
-        let outcome = match outcome {
-            Ok(true) => Ok(true),
-            _ if self.goes_on(dynamics, table, here) => Ok(true),
-            refused => refused,
-        };
-        let time = here.moment.t.value();
-        match outcome {
-            Ok(true) => {
-                self.decision.mode.clone_from(&self.best);
-                dynamics.set_mode(&self.best);
-                Ok(())
-            }
-            Ok(false) => Err(self.no_mode(dynamics, here)),
-            Err(error) => Err(Error::from_evaluation(error, time, dynamics.mode(), d)),
-        }
+        outcome
+    }
+
+    /// The same with everything that vanishes at the instant as far as can be told; whether a mode was found.
+    fn decide_together(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        table: &mut Table,
+        here: SwitchContext<'_, T>,
+    ) -> bool {
+        self.together(dynamics, table, here).is_some_and(|facts| {
+            let joined = SwitchContext {
+                facts: &facts,
+                ..here
+            };
+            matches!(self.decide_with(dynamics, table, joined), Ok(true))
+        })
     }
 
     /// Looks for a feasible mode among those `listed`, or, if they are too many, from one to the next.
@@ -372,7 +402,9 @@ impl<T: Scalar> Decider<T> {
         let located = &here.facts.located;
         let can =
             |guard: &Guard| guard.is_force() || matches!(guard, Guard::Slip(_) | Guard::Branch(_));
-        if here.facts.again || !here.ends(here.present) || !located.iter().all(can) {
+        // A slip that rises again has been put below zero by what moved the state onto its constraints, however often that is seen.
+        let for_ever = here.facts.again && located.iter().any(|guard| guard.is_force());
+        if for_ever || !here.ends(here.present) || !located.iter().all(can) {
             return false;
         }
         self.decision.expanded = false;

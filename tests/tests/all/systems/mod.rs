@@ -40,6 +40,7 @@ mod last_bounces;
 mod late;
 mod lifts;
 mod metric;
+mod mirrored;
 mod multiples_of_pi;
 mod onset;
 mod pads;
