@@ -120,8 +120,7 @@ pub enum Error {
         /// The contact.
         item: &'static str,
     },
-    /// No mode continues the motion although all coefficients are legal (Painlevé's paradox, walls that meet), or no impact law has a
-    /// solution.
+    /// No mode continues the motion although all coefficients are legal (Painlevé's paradox, walls that meet).
     NoMode {
         /// Time, s.
         time: f64,
@@ -135,6 +134,19 @@ pub enum Error {
         friction: bool,
         /// Whether there are piecewise expressions, which may jump.
         branches: bool,
+    },
+    /// No solution of an impact was found.
+    NoImpact {
+        /// Time, s.
+        time: f64,
+        /// The mode before.
+        mode: String,
+        /// A contact that is hit.
+        item: &'static str,
+        /// Number of combinations that were tried of contacts that take part and frictions that hold.
+        tried: usize,
+        /// Whether several contacts are hit at once.
+        several: bool,
     },
     /// Impacts in turn do not come to an end at one instant.
     EndlessImpacts {
@@ -405,6 +417,23 @@ impl fmt::Display for Error {
                     }
                 }
                 f.write_str("else ask for a smaller tolerance")
+            }
+            Error::NoImpact {
+                time,
+                mode,
+                item,
+                tried,
+                several,
+            } => {
+                write!(
+                    f,
+                    "t = {time} ({mode}): no solution of the impact at `{item}` is found, in {tried} combinations of contacts that take part and \
+                     frictions that hold; "
+                )?;
+                f.write_str(match several {
+                    true => "impacts in turn may have one (impacts = in_turn)",
+                    false => "lower the friction or make the contact compliant",
+                })
             }
             Error::EndlessImpacts {
                 time,

@@ -52,7 +52,8 @@ fn items(error: &Error) -> Option<Vec<&'static str>> {
         Error::Start { item, .. }
         | Error::Penetrates { item, .. }
         | Error::Projection { item, .. }
-        | Error::NoMode { item, .. } => {
+        | Error::NoMode { item, .. }
+        | Error::NoImpact { item, .. } => {
             vec![*item]
         }
         Error::Singular { items, .. } => items.clone(),

@@ -86,7 +86,7 @@ impl<T: Scalar> Collider<T> {
     /// with the Jacobians of all rows.
     ///
     /// # Errors
-    /// [`Error::NoMode`] if no combination satisfies the law, [`Error::EndlessImpacts`] if impacts in turn do not end,
+    /// [`Error::NoImpact`] if no combination satisfies the law, [`Error::EndlessImpacts`] if impacts in turn do not end,
     /// [`Error::EnergyGain`] if the solution adds energy.
     pub fn solve(
         &mut self,
@@ -142,13 +142,12 @@ impl<T: Scalar> Collider<T> {
         match solved {
             Ok(()) => {}
             Err(Stuck::Unsolved(k)) => {
-                return Err(Error::NoMode {
+                return Err(Error::NoImpact {
                     time: t,
                     mode: dynamics.mode().display(d).to_string(),
                     item: contact(k),
                     tried: self.law.search.tried,
-                    friction: dynamics.has_frictions(),
-                    branches: !d.branches.is_empty(),
+                    several: impacts == Impacts::Together && near.len() > 1,
                 });
             }
             Err(Stuck::Endless(k)) => {

@@ -3,7 +3,7 @@
 use lagrange_core::prelude::Error;
 
 /// Words for reasons; the number of a reason is its place, from 1.
-const REASONS: [&str; 13] = [
+const REASONS: [&str; 14] = [
     "other",
     "start",
     "projection",
@@ -17,6 +17,7 @@ const REASONS: [&str; 13] = [
     "no progress",
     "limit",
     "domain",
+    "no impact",
 ];
 
 /// The number of a reason; 0 is kept where a run did not fail.
@@ -27,6 +28,7 @@ pub(super) fn code(error: &Error) -> f64 {
         Error::Singular { .. } => "singular",
         Error::NotFinite { .. } => "not finite",
         Error::NoMode { .. } => "no mode",
+        Error::NoImpact { .. } => "no impact",
         Error::EndlessImpacts { .. } => "endless impacts",
         Error::EnergyGain { .. } => "energy gain",
         Error::StepTooSmall { .. } => "step too small",

@@ -84,7 +84,7 @@ impl Tally {
                 trajectory,
             }) => *trajectory,
             Err(Failure {
-                error: Error::NoMode { .. },
+                error: Error::NoMode { .. } | Error::NoImpact { .. },
                 trajectory,
             }) => {
                 self.paradoxes += 1;
