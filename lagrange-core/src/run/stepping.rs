@@ -596,7 +596,11 @@ impl<T: Scalar> Run<T> {
                     self.stepper.breaks = 0;
                     return Ok(Some(hit));
                 }
-                self.integrate(part * self.stepper.step.h.value())?;
+                let h = part * self.stepper.step.h.value();
+                if h <= KINK * self.resolution(h) {
+                    return self.taylor_step().map(Some);
+                }
+                self.integrate(h)?;
             }
             self.sample()?;
         }
