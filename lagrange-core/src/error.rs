@@ -523,9 +523,9 @@ impl Error {
                 time,
                 mode,
                 items: item.into_iter().collect(),
-                reason: "where a slip of two components begins, `norm(slip)` has no Taylor series: write \
-                         `sqrt(dot(slip, slip) + v0^2)` in its place, with a small speed v0"
-                    .to_owned(),
+                reason: format!(
+                    "{root}, and `norm(slip)` of a slip of two components that begins as `sqrt(dot(slip, slip) + v0^2)`, with a small speed v0"
+                ),
             },
             EvaluationError::NotFiniteAcceleration { .. }
             | EvaluationError::NotFiniteForce { .. } => {
