@@ -145,6 +145,8 @@ pub enum Error {
         item: &'static str,
         /// Number of combinations that were tried of contacts that take part and frictions that hold.
         tried: usize,
+        /// Whether frictions take part.
+        friction: bool,
         /// Whether several contacts are hit at once.
         several: bool,
     },
@@ -423,16 +425,17 @@ impl fmt::Display for Error {
                 mode,
                 item,
                 tried,
+                friction,
                 several,
             } => {
                 write!(
                     f,
-                    "t = {time} ({mode}): no solution of the impact at `{item}` is found, in {tried} combinations of contacts that take part and \
-                     frictions that hold; "
+                    "t = {time} ({mode}): no solution of the impact at `{item}` is found, in {tried} combinations of what takes part and what holds; "
                 )?;
-                f.write_str(match several {
-                    true => "impacts in turn may have one (impacts = in_turn)",
-                    false => "lower the friction or make the contact compliant",
+                f.write_str(match (friction, several) {
+                    (false, _) => "contacts that move may leave no room between them",
+                    (true, true) => "impacts in turn may have one (impacts = in_turn)",
+                    (true, false) => "lower the friction or make the contact compliant",
                 })
             }
             Error::EndlessImpacts {

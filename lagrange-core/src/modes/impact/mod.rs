@@ -147,6 +147,7 @@ impl<T: Scalar> Collider<T> {
                     mode: dynamics.mode().display(d).to_string(),
                     item: contact(k),
                     tried: self.law.search.tried,
+                    friction: dynamics.has_frictions(),
                     several: impacts == Impacts::Together && near.len() > 1,
                 });
             }

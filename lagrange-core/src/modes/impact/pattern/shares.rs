@@ -44,15 +44,17 @@ impl<T: Scalar> Pattern<T> {
             .filter(|(_, slide)| matches!(slide, Slide::Along(_) | Slide::Turning(_)));
         let on_contact = sliding
             .any(|(rub, _)| matches!(rub.bearer, NormalSource::ContactRow(k) if self.pressed[k]));
-        if !on_contact {
+        let count = self.unknowns.len();
+        if !on_contact || count < 2 {
             return;
         }
-        let count = self.unknowns.len();
-        let rows = self.unknowns.iter();
-        let mut matrix: Vec<T> = rows
-            .flat_map(|&i| self.unknowns.iter().map(move |&j| c.g(i, j)))
-            .collect();
+        let mut matrix = core::mem::take(&mut self.matrix);
+        matrix.clear();
+        for &i in &self.unknowns {
+            matrix.extend(self.unknowns.iter().map(|&j| c.g(i, j)));
+        }
         self.dependence.factor(&mut matrix, count);
+        self.matrix = matrix;
         if !self.dependence.is_deficient() {
             return;
         }
