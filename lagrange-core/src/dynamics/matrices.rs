@@ -3,7 +3,7 @@
 use super::Dynamics;
 use super::interpreted::{Extent, SYSTEM};
 use crate::arithmetic::Scalar;
-use crate::linear::{Freedom, least_norm};
+use crate::linear::{Freedom, dot, least_norm};
 use nalgebra::{DMatrix, DVector};
 
 impl<T: Scalar> Dynamics<T> {
@@ -140,8 +140,9 @@ impl<T: Scalar> Dynamics<T> {
             freedom,
             attitudes,
         };
-        let forces = least.forces.clone();
-        least.follow(&forces);
+        let mut forces = least.forces.clone();
+        least.follow(&least.forces, &mut forces);
+        least.forces = forces;
         least
     }
 
@@ -234,12 +235,10 @@ pub(crate) struct LeastForces<T> {
 }
 
 impl<T: Scalar> LeastForces<T> {
-    /// Changes the multipliers of quaternions as follows from `changes` of the others.
-    pub(crate) fn follow(&mut self, changes: &[T]) {
+    /// Changes the multipliers of quaternions among `forces` as follows from `changes` of the others.
+    pub(crate) fn follow(&self, changes: &[T], forces: &mut [T]) {
         for (k, parts) in &self.attitudes {
-            let taken = parts.iter().zip(changes);
-            let taken = taken.fold(T::zero(), |sum, (&part, &change)| sum + part * change);
-            self.forces[*k] -= taken;
+            forces[*k] -= dot(parts, changes);
         }
     }
 }
@@ -247,8 +246,7 @@ impl<T: Scalar> LeastForces<T> {
 /// Takes out of all columns but number `k` what they have along that one, and gives it to force `k`; how much that is of each.
 fn split_off<T: Scalar>(k: usize, columns: &mut [T], n: usize, forces: &mut [T]) -> Vec<T> {
     let along = columns[k * n..(k + 1) * n].to_vec();
-    let dot = |x: &[T]| (x.iter().zip(&along)).fold(T::zero(), |sum, (&x, &y)| sum + x * y);
-    let square = dot(&along);
+    let square = dot(&along, &along);
     let mut parts = vec![T::zero(); forces.len()];
     if square.is_zero() {
         return parts;
@@ -258,7 +256,7 @@ fn split_off<T: Scalar>(k: usize, columns: &mut [T], n: usize, forces: &mut [T])
         .enumerate()
         .filter(|(j, _)| *j != k)
     {
-        let part = dot(column) / square;
+        let part = dot(column, &along) / square;
         for (x, &y) in column.iter_mut().zip(&along) {
             *x -= part * y;
         }

@@ -14,7 +14,7 @@ pub(crate) fn negligible<T: Scalar>() -> f64 {
 
 /// Σ xᵢ yᵢ
 #[inline]
-pub(super) fn dot<T: Scalar>(x: &[T], y: &[T]) -> T {
+pub(crate) fn dot<T: Scalar>(x: &[T], y: &[T]) -> T {
     x.iter().zip(y).fold(T::zero(), |sum, (&x, &y)| sum + x * y)
 }
 

@@ -30,6 +30,7 @@ pub(crate) use conic::{Cone, ConicPoint, ConicProgram};
 pub(crate) use consistent::{Equilibrated, SeveralSides};
 pub(crate) use least_norm::{Freedom, least_norm};
 pub(crate) use lemke::{Lemke, Outcome as LemkeOutcome};
+pub(crate) use lu::dot;
 pub(crate) use pattern::KktPattern;
 pub(crate) use small::{VanishingCombinations, solve_small};
 pub(crate) use solver::{Columns, Inertia, SolveError, Solver};

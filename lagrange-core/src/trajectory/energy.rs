@@ -3,8 +3,8 @@
 //! The force of a row does the work λ (a·v) = −λ b per time, with b = 0 where what it holds does not move by itself (d'Alembert's
 //! principle; Lanczos 1970, section III.1): only rheonomic rows and slips are asked for their forces.
 
-use super::sampler::{Sampler, branches_of_outputs, report_needs};
-use super::{Instant, State, Trajectory};
+use super::sampler::{Sampler, branches_of_outputs, report_needs, unless_left_out};
+use super::{Instant, Segment, State, Trajectory};
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::effects::Item;
@@ -140,12 +140,12 @@ impl<'a, T: Scalar> EnergyMeter<'a, T> {
         }
     }
 
-    /// Enters the mode of a segment; the time and the state at part `s` of it.
-    fn place(&mut self, index: usize, s: T) -> Result<(T, State<T>), Error> {
+    /// Enters the mode of a segment.
+    fn enter_segment(&mut self, index: usize) -> (&'a Mode, &'a Segment<T>) {
         let segment = &self.trajectory.segments[index];
-        self.enter(&self.trajectory.modes[segment.mode]);
-        let state = self.sampler.place(index, s)?;
-        Ok((segment.t + segment.h * s, state))
+        let mode = &self.trajectory.modes[segment.mode];
+        self.enter(mode);
+        (mode, segment)
     }
 
     /// Energies of a state in a mode.
@@ -161,18 +161,16 @@ impl<'a, T: Scalar> EnergyMeter<'a, T> {
 
     /// Energies at part `s` of a segment.
     pub(super) fn energies_inside(&mut self, index: usize, s: T) -> Result<Energies<T>, Error> {
-        let (time, state) = self.place(index, s)?;
-        let mode = &self.trajectory.modes[self.trajectory.segments[index].mode];
-        let energies = self.energies_entered(time, mode, &state);
+        let (mode, segment) = self.enter_segment(index);
+        let state = self.sampler.place(index, s)?;
+        let energies = self.energies_entered(segment.t + segment.h * s, mode, &state);
         self.sampler.state = state;
         energies
     }
 
     /// Kinetic energy at part `s` of a segment, as exact as the tolerance of its step: nothing that depends on it is looked for.
     pub(super) fn kinetic(&mut self, index: usize, s: T) -> Result<T, Error> {
-        let segment = &self.trajectory.segments[index];
-        let mode = &self.trajectory.modes[segment.mode];
-        self.enter(mode);
+        let (mode, segment) = self.enter_segment(index);
         let mut state = core::mem::take(&mut self.sampler.state);
         self.trajectory
             .state_at(segment, s, &mut state.q, &mut state.v);
@@ -220,18 +218,17 @@ impl<'a, T: Scalar> EnergyMeter<'a, T> {
 
     /// Whether anything can give or take energy in a segment.
     pub(super) fn works(&mut self, index: usize) -> bool {
-        let trajectory = self.trajectory;
-        self.enter(&trajectory.modes[trajectory.segments[index].mode]);
+        self.enter_segment(index);
         self.working.any()
     }
 
     /// Power of every force, dissipation and row, and of explicit time, at part `s` of a segment; in the order of
     /// [`super::ledger`].
     pub(super) fn powers(&mut self, index: usize, s: T, out: &mut [T]) -> Result<(), Error> {
-        let trajectory = self.trajectory;
-        let mode = &trajectory.modes[trajectory.segments[index].mode];
-        let (time, state) = self.place(index, s)?;
-        let d = trajectory.description();
+        let (mode, segment) = self.enter_segment(index);
+        let state = self.sampler.place(index, s)?;
+        let time = segment.t + segment.h * s;
+        let d = self.trajectory.description();
         let loads = d.forces.len() + d.dissipations.len();
         out.fill(T::zero());
         let (sampler, working) = (&mut self.sampler, &self.working);
@@ -254,9 +251,7 @@ impl<'a, T: Scalar> EnergyMeter<'a, T> {
             .zip(items(d.forces.len(), d.dissipations.len()))
             .zip(powers)
         {
-            if dynamics.effects().includes(d, item) {
-                *out = dynamics.report(power);
-            }
+            *out = unless_left_out(dynamics, item, power);
         }
         if let Some(out) = out.last_mut() {
             *out = dynamics.report(d.energy.time_power);

@@ -362,7 +362,7 @@ pub(crate) fn instant<T: Scalar>(
 }
 
 /// A reported number of a force or dissipation: the tape has that of the declaration, whatever is left out.
-fn unless_left_out<T: Scalar>(dynamics: &Dynamics<T>, item: Item, place: ValueRef) -> T {
+pub(super) fn unless_left_out<T: Scalar>(dynamics: &Dynamics<T>, item: Item, place: ValueRef) -> T {
     match dynamics.effects().includes(dynamics.description(), item) {
         true => dynamics.report(place),
         false => T::zero(),

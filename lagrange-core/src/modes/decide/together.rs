@@ -30,7 +30,6 @@ impl<T: Scalar> Decider<T> {
         dynamics.value(moment.t, moment.q, moment.v).ok()?;
         dynamics.complete_outputs();
         self.sizes.take(dynamics);
-        self.sized = false;
         let reading = Reading::Values(dynamics);
         for &guard in &watched.guards {
             let error = match guard {

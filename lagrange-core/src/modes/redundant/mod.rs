@@ -261,12 +261,12 @@ impl<T: Scalar> RedundantForces<T> {
         }
         let shares = self.shares();
         let changes: Vec<T> = shares.iter().map(|&change| T::from_f64(change)).collect();
-        let mut shared = self.least.clone();
-        for (force, &change) in shared.forces.iter_mut().zip(&changes) {
+        let mut forces = self.least.forces.clone();
+        for (force, &change) in forces.iter_mut().zip(&changes) {
             *force += change;
         }
-        shared.follow(&changes);
-        dynamics.forces_of_acting(&shared.forces)
+        self.least.follow(&changes, &mut forces);
+        dynamics.forces_of_acting(&forces)
     }
 
     /// What takes the forces of least norm to those of least norm that keep all bounds, or come as near to that as any do.

@@ -25,6 +25,7 @@ mod dependent;
 mod fading;
 mod falls_flat;
 mod feasible;
+mod four_feet;
 mod groove;
 mod held;
 mod hoop;
