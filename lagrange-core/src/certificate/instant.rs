@@ -64,11 +64,12 @@ impl Equations {
 
     /// Checks whether forces are such as a mode allows, in the state that was taken: normal forces not negative, and frictions that stick within their cones.
     pub fn examine_bounds(&mut self, at: Situation<'_>, mode: &Mode, findings: &mut Findings) {
+        let blur = self.blur_of_directions(at, mode);
         for (c, contact) in self.declaration.contacts.iter().enumerate() {
             if self.includes(Item::Contact(c)) && mode.contacts[c] {
                 let (force, name) = (at.forces[self.d.contacts[c].row], self.d.contacts[c].name);
                 let size = self.force_along(contact.gap, Level::Position);
-                findings.book(Subject::NormalForces, -force, size, at.time, name);
+                findings.book(Subject::NormalForces, -force - blur, size, at.time, name);
             }
         }
         for (f, friction) in self.declaration.frictions.iter().enumerate() {
@@ -80,8 +81,43 @@ impl Equations {
             let (normal, normal_size) = self.normal(f, at.forces);
             let mu = self.values.value(friction.static_coefficient);
             let size = self.force_along_slips(friction.slip) + mu * normal_size;
-            findings.book(Subject::Cones, force - mu * normal, size, at.time, name);
+            let beyond = force - mu * normal - blur;
+            findings.book(Subject::Cones, beyond, size, at.time, name);
         }
+    }
+
+    /// By how much forces are off because slips of two components that nearly vanish have their directions to what rounding leaves of them only.
+    fn blur_of_directions(&mut self, at: Situation<'_>, mode: &Mode) -> f64 {
+        let mut blur = 0.0;
+        for (f, friction) in self.declaration.frictions.iter().enumerate() {
+            let turns = match mode.frictions[f] {
+                FrictionMode::Slip(sliding) => !matches!(sliding.direction, Direction::Fixed(_)),
+                _ => false,
+            };
+            if turns && self.friction_acts(f, mode) {
+                let speed = length(&self.slip(friction.slip));
+                let (normal, _) = self.normal(f, at.forces);
+                let mu = self.values.value(friction.kinetic_coefficient);
+                blur += mu * normal.abs() * self.exact * self.reach_of(friction.slip, at)
+                    / speed.max(f64::MIN_POSITIVE);
+            }
+        }
+        blur
+    }
+
+    /// Components of a slip.
+    fn slip(&self, components: &[usize]) -> Vec<f64> {
+        let components = components.iter();
+        components.map(|&value| self.values.value(value)).collect()
+    }
+
+    /// How large its components may be by what moves.
+    fn reach_of(&mut self, slip: &[usize], at: Situation<'_>) -> f64 {
+        let mut reach = 0.0_f64;
+        for &value in slip {
+            reach = reach.max(self.reach(value, 0, at));
+        }
+        reach
     }
 
     fn examine_energies(&mut self, at: Situation<'_>, reported: Energies, findings: &mut Findings) {
@@ -174,13 +210,8 @@ impl Equations {
                 continue;
             }
             let size = self.force_along_slips(friction.slip);
-            let mut reach = 0.0_f64;
-            let mut slip = [0.0; 2];
-            for (k, &value) in friction.slip.iter().enumerate() {
-                reach = reach.max(self.reach(value, 0, at));
-                slip[k] = self.values.value(value);
-            }
-            let slip = &slip[..friction.slip.len()];
+            let reach = self.reach_of(friction.slip, at);
+            let slip = &self.slip(friction.slip)[..];
             match mode.frictions[f] {
                 FrictionMode::Inactive => {}
                 FrictionMode::Stick => {

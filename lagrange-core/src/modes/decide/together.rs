@@ -10,6 +10,9 @@ use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
 use crate::modes::table::Table;
 
+/// Slips of two components that come to rest with another one are still so many tolerances large when that one has come as near as its direction can be told.
+const TURNING: f64 = 1e3;
+
 impl<T: Scalar> Decider<T> {
     /// The facts with all forces and slips of the present mode that are no larger than their errors; `None` if there are no more of them.
     pub(super) fn together(
@@ -32,14 +35,23 @@ impl<T: Scalar> Decider<T> {
         self.sizes.take(dynamics);
         let reading = Reading::Values(dynamics);
         for &guard in &watched.guards {
-            let error = match guard {
-                Guard::Slip(f) if dynamics.description().frictions[f].components == 1 => {
-                    moment.tolerance * dynamics.slip_size(f, moment.v)
+            let (value, error) = match guard {
+                Guard::Slip(f) => {
+                    let error = moment.tolerance * dynamics.slip_size(f, moment.v);
+                    if dynamics.description().frictions[f].components > 1 {
+                        let [along, across] = dynamics.slip(f).map(|s| s.value());
+                        (along.hypot(across), TURNING * error)
+                    } else {
+                        (guard::value(guard, here.present, &reading), error)
+                    }
                 }
-                force if force.is_single_force() => here.blur() * self.sizes.of(force, dynamics),
+                force if force.is_single_force() => {
+                    let error = here.blur() * self.sizes.of(force, dynamics);
+                    (guard::value(force, here.present, &reading), error)
+                }
                 _ => continue,
             };
-            let vanishes = guard::value(guard, here.present, &reading).abs() <= error;
+            let vanishes = value.abs() <= error;
             if vanishes && !facts.located.contains(&guard) {
                 joined.located.push(guard);
                 if let Guard::Slip(f) = guard {

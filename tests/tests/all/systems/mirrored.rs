@@ -158,7 +158,7 @@ fn three_equal_arms_move_as_one() {
     for (mass, stiffness, journal) in [
         (0.41, 16.2, 0.116),
         (0.4088, 16.19, 0.1161),
-        (1.0, 10.0, 0.05),
+        (1.044, 18.38, 0.04811),
     ] {
         let scene = Delta {
             mass,
@@ -203,5 +203,105 @@ fn three_equal_arms_move_as_one() {
                 close,
             );
         }
+    }
+}
+
+/// Two balls bounce on the ends of a plank that springs carry.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y, theta, a, b),
+    kinetic = plank/2 * der(y)^2 + plank * half^2 / 6 * der(theta)^2 + ball/2 * (der(a)^2 + der(b)^2),
+    potential = gravity * (plank * y + ball * (a + b)) + stiffness/2 * y^2 + hinge/2 * theta^2,
+    contact(left: a >= y - half * sin(theta), restitution = bounce),
+    contact(right: b >= y + half * sin(theta), restitution = bounce),
+)]
+struct Plank {
+    plank: f64,
+    ball: f64,
+    half: f64,
+    gravity: f64,
+    stiffness: f64,
+    hinge: f64,
+    bounce: f64,
+}
+
+/// The plank does not tilt: one blow after the other would turn it.
+#[test]
+fn mirrored_blows_fall_together() {
+    for (ball, bounce) in [(1.0, 0.5), (2.0, 0.5), (2.0, 0.8)] {
+        let scene = Plank {
+            plank: 3.0,
+            ball,
+            half: 1.0,
+            gravity: 9.81,
+            stiffness: 60.0,
+            hinge: 40.0,
+            bounce,
+        };
+        for (method, tolerance) in METHODS
+            .into_iter()
+            .flat_map(|m| [(m, 1e-6), (m, 1e-9), (m, 1e-12)])
+        {
+            let start = state(&[0.0, 0.0, 0.4, 0.4], &[0.0; 4]);
+            let run = run_by(&scene, (method, tolerance), start, 2.6);
+            let asked = format!("{method} {tolerance:e}, {ball} kg");
+            let times = |side: &str| -> Vec<f64> {
+                let d = run.description();
+                let events = run.events().iter().filter(|e| e.subject.name(d) == side);
+                let blows = events.filter(|e| e.kind == EventKind::Impact);
+                blows.map(|e| e.time).collect()
+            };
+            assert!(times("left").len() > 20, "{asked}");
+            assert_eq!(times("left"), times("right"), "{asked}");
+            agree(&asked, run.final_state().q(Plank::THETA), 0.0, 1e-12);
+        }
+    }
+}
+
+/// Carts on springs strike one between them from both sides.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(a, middle, b),
+    kinetic = mass/2 * (der(a)^2 + der(b)^2) + light/2 * der(middle)^2,
+    potential = stiffness/2 * ((a - place + 1)^2 + (b - place - 1)^2),
+    contact(left: middle - a >= 1, restitution = bounce),
+    contact(right: b - middle >= 1, restitution = bounce),
+)]
+struct Carts {
+    mass: f64,
+    light: f64,
+    stiffness: f64,
+    place: f64,
+    bounce: f64,
+}
+
+/// Each strikes as if it were a wall: once in half a period, with less of its speed every time. Nothing holds the one between them.
+#[test]
+fn what_is_struck_from_both_sides_stays() {
+    let scene = Carts {
+        mass: 2.0,
+        light: 0.1,
+        stiffness: 50.0,
+        place: 0.3,
+        bounce: 0.9,
+    };
+    let (far, half_period) = (0.2, core::f64::consts::PI / 5.0);
+    let start = [
+        scene.place - 1.0 - far,
+        scene.place,
+        scene.place + 1.0 + far,
+    ];
+    for (method, tolerance) in METHODS
+        .into_iter()
+        .flat_map(|m| [(m, 1e-6), (m, 1e-9), (m, 1e-12)])
+    {
+        let start = state(&start, &[0.0; 3]);
+        let run = run_by(&scene, (method, tolerance), start, 8.0 * half_period);
+        let asked = format!("{method} {tolerance:e}");
+        let end = run.final_state();
+        agree(&asked, end.q(Carts::MIDDLE), scene.place, 1e-13);
+        let back = far * scene.bounce.powi(8);
+        let close = 1e2 * tolerance.max(1e-9);
+        agree(&asked, end.q(Carts::A), scene.place - 1.0 - back, close);
     }
 }
