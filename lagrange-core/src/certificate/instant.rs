@@ -64,7 +64,7 @@ impl Equations {
 
     /// Checks whether forces are such as a mode allows, in the state that was taken: normal forces not negative, and frictions that stick within their cones.
     pub fn examine_bounds(&mut self, at: Situation<'_>, mode: &Mode, findings: &mut Findings) {
-        let blur = self.blur_of_directions(at, mode);
+        let blur = self.blur_of_directions(at, mode, findings.tolerance);
         for (c, contact) in self.declaration.contacts.iter().enumerate() {
             if self.includes(Item::Contact(c)) && mode.contacts[c] {
                 let (force, name) = (at.forces[self.d.contacts[c].row], self.d.contacts[c].name);
@@ -86,8 +86,9 @@ impl Equations {
         }
     }
 
-    /// By how much forces are off because slips of two components that nearly vanish have their directions to what rounding leaves of them only.
-    fn blur_of_directions(&mut self, at: Situation<'_>, mode: &Mode) -> f64 {
+    /// By how much forces are off because slips of two components that nearly vanish have their directions to what rounding leaves of them only,
+    /// or none at all where they are no larger than their errors.
+    fn blur_of_directions(&mut self, at: Situation<'_>, mode: &Mode, tolerance: f64) -> f64 {
         let mut blur = 0.0;
         for (f, friction) in self.declaration.frictions.iter().enumerate() {
             let turns = match mode.frictions[f] {
@@ -96,10 +97,15 @@ impl Equations {
             };
             if turns && self.friction_acts(f, mode) {
                 let speed = length(&self.slip(friction.slip));
+                let reach = self.reach_of(friction.slip, at);
                 let (normal, _) = self.normal(f, at.forces);
                 let mu = self.values.value(friction.kinetic_coefficient);
-                blur += mu * normal.abs() * self.exact * self.reach_of(friction.slip, at)
-                    / speed.max(f64::MIN_POSITIVE);
+                blur += mu
+                    * normal.abs()
+                    * match speed > VANISHING * tolerance * reach {
+                        true => self.exact * reach / speed,
+                        false => 2.0,
+                    };
             }
         }
         blur

@@ -20,7 +20,7 @@ const RESOLUTION: f64 = 1e-13;
 /// So many units of rounding are between the time of a root and of the same one when the next step begins.
 const UNITS_OF_TIME: f64 = 64.0;
 
-/// So many units of rounding, of the largest position, gather in positions.
+/// So many units of rounding, of the largest position, come into positions with a step.
 const UNITS_OF_STATE: f64 = 64.0;
 
 /// A term of a stop or of a mark over the step.
@@ -168,7 +168,10 @@ impl<T: Scalar> Run<T> {
             return;
         }
         let sizes = self.now.state.q.iter().map(|q| q.value().abs());
-        let rounding = UNITS_OF_STATE * epsilon::<T>() * sizes.fold(1.0, f64::max);
+        // What each step adds has either sign.
+        let steps = 1.0 + self.recorder.trajectory.work.steps as f64;
+        let gathered = UNITS_OF_STATE * steps.sqrt() * epsilon::<T>();
+        let rounding = gathered.min(self.settings.tolerance) * sizes.fold(1.0, f64::max);
         for &(guard, s, _) in &self.locator.falls {
             let own = speed(guard, s);
             if own > 0.0
