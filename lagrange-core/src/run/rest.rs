@@ -18,7 +18,7 @@ use crate::trajectory::State;
 
 /// What may still change until rest, in units of the tolerance.
 const LEFT: f64 = 1.0;
-/// The same for a slip that comes to rest with another one.
+/// The same for a slip that comes to rest with another one: half of what a certificate lets states jump by.
 const LEFT_TOGETHER: f64 = 8.0;
 /// A slip that is no larger, beside what it is made of, is none.
 const NOTHING: f64 = 1e-13;

@@ -1,6 +1,6 @@
 //! What goes wrong is a typed error with numbers, and nothing is lost.
 
-use lagrange_core::error::Level;
+use lagrange_core::error::{Level, NotFinite};
 use lagrange_core::prelude::*;
 use lagrange_problems::scenes::hard::BouncingBall;
 use lagrange_problems::scenes::{Kepler, MassOnShell, MassOnWheel, RollingSphere};
@@ -596,5 +596,117 @@ fn a_press_that_meets_the_anvil_is_told_without_friction() {
     assert!(
         text.contains("room between") && !text.contains("friction"),
         "{text}"
+    );
+}
+
+/// A body on a spring.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = mass/2 * der(x)^2,
+    potential = stiffness/2 * x^2 * exp(grow * x),
+)]
+struct Sprung {
+    mass: f64,
+    stiffness: f64,
+    grow: f64,
+}
+
+/// So it is in the middle of a run; no step has been made here.
+#[test]
+fn what_overflows_at_a_start_is_told_as_such() {
+    for (mass, stiffness, grow, expected) in [
+        (1e-290, 1e30, 0.0, NotFinite::Range),
+        (1.0, 1.0, 1e3, NotFinite::Exponential),
+    ] {
+        let scene = Sprung {
+            mass,
+            stiffness,
+            grow,
+        };
+        let simulation = Simulation::new(&scene);
+        let start = || State::new(vec![1.0], vec![0.0]);
+        let failed = simulation.run(start(), 0.0..1.0).expect_err("overflows");
+        let listed = simulation.feasible_modes(0.0, start());
+        for error in [failed.error, listed.expect_err("overflows")] {
+            let Error::NotFinite { cause, .. } = &error else {
+                panic!("{error}")
+            };
+            assert_eq!(*cause, expected, "{error}");
+        }
+    }
+}
+
+/// A block is pulled across a plane by a force that grows, with friction that falls with the speed.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    friction(plane: slip = (der(x), der(y)), normal = load, static = 0.5, kinetic = 0.2 + 0.3 * exp(-norm(slip))),
+    force(pull: (3 * t, 4 * t) at (x, y)),
+)]
+struct Dragged {
+    load: f64,
+}
+
+/// The same, with what its error says to write, and along the line on which it moves.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, s),
+    kinetic = (der(x)^2 + der(y)^2 + der(s)^2) / 2,
+    friction(plane: slip = (der(x), der(y)), normal = 10, static = 0.5,
+        kinetic = 0.2 + 0.3 * exp(-sqrt(dot(slip, slip) + slow^2))),
+    friction(line: slip = der(s), normal = 10, static = 0.5, kinetic = 0.2 + 0.3 * exp(-abs(slip))),
+    force(pull: (3 * t, 4 * t) at (x, y)),
+    force(straight: 5 * t along der(s)),
+)]
+struct Smoothed {
+    slow: f64,
+}
+
+#[test]
+fn a_norm_of_a_slip_that_begins_is_told_what_to_write_in_its_place() {
+    let failure = Simulation::new(&Dragged { load: 10.0 })
+        .run(State::new(vec![0.0; 2], vec![0.0; 2]), 0.0..4.0)
+        .expect_err("no series");
+    assert!(
+        failure.to_string().contains("sqrt(dot(slip, slip) + v0^2)"),
+        "{failure}"
+    );
+    let run = Simulation::new(&Smoothed { slow: 1e-6 })
+        .run(State::new(vec![0.0; 3], vec![0.0; 3]), 0.0..4.0)
+        .unwrap_or_else(|failure| panic!("{failure}"));
+    let end = run.final_state();
+    assert!(end.q(Smoothed::S) > 1.0);
+    agree("x", end.q(Smoothed::X), 0.6 * end.q(Smoothed::S), 1e-5);
+    agree("y", end.q(Smoothed::Y), 0.8 * end.q(Smoothed::S), 1e-5);
+}
+
+/// A relay pushes a body towards its goal, wherever it is.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    force(relay: if(x + der(x) >= goal, -push, push) along der(x)),
+)]
+struct Relay {
+    goal: f64,
+    push: f64,
+}
+
+#[test]
+fn a_relay_that_has_no_mode_is_told_no_causes_of_contacts() {
+    let failure = Simulation::new(&Relay {
+        goal: 0.5,
+        push: 2.0,
+    })
+    .run(State::new(vec![0.0], vec![0.0]), 0.0..4.0)
+    .expect_err("no mode");
+    assert!(matches!(failure.error, Error::NoMode { .. }), "{failure}");
+    let told = failure.to_string();
+    assert!(told.contains("a controller that switches"), "{told}");
+    assert!(
+        !told.contains("contact") && !told.contains("Painlevé"),
+        "{told}"
     );
 }

@@ -136,7 +136,7 @@ impl<T: Scalar> Decider<T> {
     ///
     /// On success `dynamics` is left in that mode. Where a few modes are possible all are looked at; the order of preference among
     /// feasible ones is: closed before open, stick before slip, then the present mode, then the fewest changes. Where they are many, see
-    /// [`pivot`].
+    /// [`pivot`], and where there is none, [`together`].
     ///
     /// # Errors
     /// [`Error::NoMode`] if no candidate is feasible (Painlevé's paradox).
