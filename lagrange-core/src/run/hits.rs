@@ -20,9 +20,6 @@ const RESOLUTION: f64 = 1e-13;
 /// So many units of rounding are between the time of a root and of the same one when the next step begins.
 const UNITS_OF_TIME: f64 = 64.0;
 
-/// So many units of rounding, of the largest position, come into positions with a step.
-const UNITS_OF_STATE: f64 = 64.0;
-
 /// A term of a stop or of a mark over the step.
 #[derive(Clone, Copy)]
 struct Term<'c> {
@@ -134,7 +131,6 @@ impl<T: Scalar> Run<T> {
                 at = at.min(s);
             }
         }
-        self.close_with_what_closes(at);
         let guards = if self.locator.fallen.is_empty() {
             self.locator.rests.clear();
             Hit::Nothing
@@ -151,35 +147,6 @@ impl<T: Scalar> Run<T> {
         match self.first_stop((guards.end() * (1.0 + 1e-13)).min(1.0)) {
             Some((stop, s)) => Hit::Stop(stop, s),
             None => guards,
-        }
-    }
-
-    /// Gaps of which rounding of the positions does not tell that they close later than one that closes at part `at` of the step: what is mirrored hits at
-    /// once. What all but rests is not among them, for the faster one comes a clear distance before.
-    fn close_with_what_closes(&mut self, at: f64) {
-        let curves = &self.locator.polynomials;
-        let speed = |guard: Guard, s: f64| match (guard, curves.of(guard)) {
-            (Guard::Gap(_), Some(curve)) => slope(curve, s).abs(),
-            _ => 0.0,
-        };
-        let fallen = self.locator.fallen.iter();
-        let fastest = fallen.fold(0.0_f64, |most, &guard| most.max(speed(guard, at)));
-        if fastest == 0.0 {
-            return;
-        }
-        let sizes = self.now.state.q.iter().map(|q| q.value().abs());
-        // What each step adds has either sign.
-        let steps = 1.0 + self.recorder.trajectory.work.steps as f64;
-        let gathered = UNITS_OF_STATE * steps.sqrt() * epsilon::<T>();
-        let rounding = gathered.min(self.settings.tolerance) * sizes.fold(1.0, f64::max);
-        for &(guard, s, _) in &self.locator.falls {
-            let own = speed(guard, s);
-            if own > 0.0
-                && (s - at) * own.max(fastest) <= rounding
-                && !self.locator.fallen.contains(&guard)
-            {
-                self.locator.fallen.push(guard);
-            }
         }
     }
 
