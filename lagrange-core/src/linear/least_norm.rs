@@ -26,6 +26,11 @@ pub(crate) struct Freedom {
 const DETERMINED: f64 = 1e-9;
 
 impl Freedom {
+    /// Number of forces.
+    pub(crate) fn size(&self) -> usize {
+        self.size
+    }
+
     /// Row `i` of P.
     pub(crate) fn row(&self, i: usize) -> &[f64] {
         &self.projector[i * self.size..(i + 1) * self.size]

@@ -10,6 +10,7 @@
 //! where column i of C is the generalized force of λᵢ: aᵢᵀ, what couplings add, and sliding friction −μk ν Σ d aₜᵀ.
 //! C = Aᵀ where nothing slides.
 
+mod bounded;
 mod collect;
 mod conic;
 mod consistent;
@@ -25,8 +26,9 @@ mod solver;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use bounded::{ForceBounds, Linear};
 pub(crate) use collect::{acting, acts};
-pub(crate) use conic::{Cone, ConicPoint, ConicProgram};
+pub(crate) use conic::{Cone, ConicPoint};
 pub(crate) use consistent::{Equilibrated, SeveralSides};
 pub(crate) use least_norm::{Freedom, least_norm};
 pub(crate) use lemke::{Lemke, Outcome as LemkeOutcome};

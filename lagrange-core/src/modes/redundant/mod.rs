@@ -20,7 +20,7 @@ use crate::modes::composite::{CompositeGuard, Part};
 use crate::modes::guard::{ConePlane, Guard};
 use crate::modes::scale::Sizes;
 use crate::system::{Friction, Normal};
-use bounds::{Bound, Bounds};
+use bounds::Bounds;
 use nalgebra::DVector;
 
 /// Undetermined forces at one state; the memory is reused.
@@ -35,9 +35,6 @@ pub struct RedundantForces<T> {
 
 /// What rounding leaves of a bound, relative to its size.
 const ROUNDING: f64 = 1e-10;
-
-/// Where bounds allow one share only, they are widened by this, relative: what rounding may have taken.
-const BORDER: f64 = 1e-13;
 
 /// Of so many constraints with open forces that carry friction both signs are tried.
 const MOST_SIGNS: usize = 8;
@@ -91,7 +88,7 @@ impl<T: Scalar> RedundantForces<T> {
         };
         self.signs = (0..d.constraints.len()).map(of_least).collect();
         self.list_bounds(dynamics);
-        if !self.has_open() || self.bounds.least(&self.bounds.values) >= 0.0 {
+        if !self.has_open() || self.bounds.forces.least(&self.bounds.forces.values) >= 0.0 {
             return;
         }
         let choices = self.choices_of_signs(dynamics);
@@ -102,7 +99,7 @@ impl<T: Scalar> RedundantForces<T> {
         for signs in choices {
             self.signs = signs;
             self.list_bounds(dynamics);
-            let missing = -self.bounds.widest_margin();
+            let missing = -self.bounds.forces.widest_margin();
             let missing = if missing > ROUNDING { missing } else { 0.0 };
             let change = self.shares().norm();
             if (missing, change) < (best.0, best.1) {
@@ -127,7 +124,7 @@ impl<T: Scalar> RedundantForces<T> {
             }
             self.signs = signs;
             self.list_bounds(dynamics);
-            if self.bounds.widest_margin() > border {
+            if self.bounds.forces.widest_margin() > border {
                 let change = self.shares().norm();
                 if best.as_ref().is_none_or(|(least, _)| change < *least) {
                     best = Some((change, self.signs.clone()));
@@ -181,7 +178,7 @@ impl<T: Scalar> RedundantForces<T> {
 
     /// The composite guard that forbids the mode, or comes nearer to that than `margin` (relative): of all the smallest.
     pub fn critical(&self, margin: f64) -> Option<CompositeGuard> {
-        self.smallest(&self.bounds.values, margin)
+        self.smallest(&self.bounds.forces.values, margin)
     }
 
     /// The same for guards with other values than those looked at, and the same rows.
@@ -189,13 +186,19 @@ impl<T: Scalar> RedundantForces<T> {
         &self,
         mut value: impl FnMut(Guard, Option<ConePlane>) -> f64,
     ) -> Option<CompositeGuard> {
-        let mut values = Vec::with_capacity(self.bounds.values.len());
-        for bound in &self.bounds.list {
-            let &Bound { guard, size, .. } = bound;
-            match bound.cone {
-                Cone::Ray(_) => values.push(value(guard, None) / size),
+        let forces = &self.bounds.forces;
+        let mut values = Vec::with_capacity(forces.values.len());
+        for ((bound, cone), size) in self
+            .bounds
+            .list
+            .iter()
+            .zip(&forces.cones)
+            .zip(&forces.sizes)
+        {
+            match cone {
+                Cone::Ray(_) => values.push(value(bound.guard, None) / size),
                 Cone::SecondOrder(_) => {
-                    let mut side = |along| value(guard, Some(bound.plane(along))) / size;
+                    let mut side = |along| value(bound.guard, Some(bound.plane(along))) / size;
                     let [east, west] = [1.0, -1.0].map(|x| side([x, 0.0]));
                     let [north, south] = [1.0, -1.0].map(|y| side([0.0, y]));
                     values.extend([east + west, west - east, south - north].map(|x| 0.5 * x));
@@ -208,12 +211,12 @@ impl<T: Scalar> RedundantForces<T> {
     /// The composite guard of bounds with these `values` that is smallest, and below `margin`.
     fn smallest(&self, values: &[f64], margin: f64) -> Option<CompositeGuard> {
         // Those of least norm may do.
-        if !self.has_open() || self.bounds.least(values) >= margin {
+        let forces = &self.bounds.forces;
+        if !self.has_open() || forces.least(values) >= margin {
             return None;
         }
-        let ConicPoint { z, .. } = self.bounds.widest(values, margin);
-        let list = self.bounds.list.iter();
-        let weights = list.clone().map(|bound| z[bound.cone.first()]);
+        let ConicPoint { z, .. } = forces.widest(values, margin);
+        let weights = forces.cones.iter().map(|cone| z[cone.first()]);
         // The rest is the weight of the margin asked for.
         let sum: f64 = weights.clone().sum();
         let value: f64 = values.iter().zip(&z).map(|(x, z)| x * z).sum();
@@ -221,17 +224,22 @@ impl<T: Scalar> RedundantForces<T> {
             return None;
         }
         let largest = weights.fold(0.0, f64::max);
-        let parts = list.filter(|bound| z[bound.cone.first()] > NO_WEIGHT * largest);
-        let parts = parts.map(|bound| {
-            let weight = z[bound.cone.first()];
+        let list = self
+            .bounds
+            .list
+            .iter()
+            .zip(forces.cones.iter().zip(&forces.sizes));
+        let parts = list.filter(|(_, (cone, _))| z[cone.first()] > NO_WEIGHT * largest);
+        let parts = parts.map(|(bound, (cone, size))| {
+            let weight = z[cone.first()];
             let along = |i: usize| [i + 1, i + 2].map(|i| -z[i] / weight);
             Part {
                 guard: bound.guard,
-                plane: match bound.cone {
+                plane: match *cone {
                     Cone::Ray(_) => None,
                     Cone::SecondOrder(i) => Some(bound.plane(along(i))),
                 },
-                weight: weight / (sum * bound.size),
+                weight: weight / (sum * size),
             }
         });
         Some(CompositeGuard {
@@ -271,14 +279,8 @@ impl<T: Scalar> RedundantForces<T> {
 
     /// What takes the forces of least norm to those of least norm that keep all bounds, or come as near to that as any do.
     fn shares(&self) -> DVector<f64> {
-        let bounds = &self.bounds;
-        if bounds.least(&bounds.values) >= 0.0 {
-            return DVector::zeros(self.least.forces.len());
-        }
-        let free = bounds.basis.ncols();
-        let widest = bounds.widest(&bounds.values, 1.0).x;
-        let program = bounds.nearest((widest[free] - BORDER).min(0.0));
-        &bounds.basis * program.solve(widest.rows(0, free).into_owned()).x
+        let shares = self.bounds.forces.shares(0.0);
+        shares.unwrap_or_else(|| DVector::zeros(self.least.forces.len()))
     }
 
     /// Whether the force of each row is undetermined.

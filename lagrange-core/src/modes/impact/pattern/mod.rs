@@ -9,12 +9,13 @@
 //!
 //! With two slip components the direction s⁺/|s⁺| is an unknown too: Newton's method from a given direction.
 
+mod bounds;
 mod judgement;
 mod shares;
 
 use super::collision::{Collision, FrictionRow, NormalSource};
 use crate::arithmetic::Scalar;
-use crate::linear::{Equilibrated, least_norm};
+use crate::linear::{Equilibrated, ForceBounds};
 pub(super) use judgement::Violation;
 pub(super) use shares::Share;
 
@@ -67,6 +68,7 @@ pub(super) struct Pattern<T> {
     /// In the place of equations that say nothing new: how impulses are shared.
     pub(super) shares: Vec<Share<T>>,
     dependence: Equilibrated<T>,
+    bounds: ForceBounds,
     pub(super) matrix: Vec<T>,
     pub(super) right: Vec<T>,
     pub(super) factors: Equilibrated<T>,
@@ -172,7 +174,7 @@ impl<T: Scalar> Pattern<T> {
         }
         if self.factors.is_deficient() {
             self.undetermined = true;
-            self.share(c);
+            self.share(c, phase);
         }
         self.slide(c);
         self.move_on(c, phase);
@@ -190,25 +192,6 @@ impl<T: Scalar> Pattern<T> {
                 let row = self.unknowns[at];
                 aim(c, phase, row) - self.after[row]
             }
-        }
-    }
-
-    /// Impulses that are not determined: of all with the same effect those of least norm.
-    fn share(&mut self, c: &Collision<T>) {
-        let columns: Vec<T> = self
-            .unknowns
-            .iter()
-            .flat_map(|&row| (0..c.size).map(move |i| (i, row)))
-            .map(|(i, row)| self.effect(c, i, row))
-            .collect();
-        let mut shared: Vec<T> = self
-            .unknowns
-            .iter()
-            .map(|&row| self.impulses[row])
-            .collect();
-        least_norm(&columns, c.size, shared.len(), &mut shared);
-        for (&row, impulse) in self.unknowns.iter().zip(shared) {
-            self.impulses[row] = impulse;
         }
     }
 

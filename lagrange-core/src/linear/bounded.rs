@@ -1,0 +1,208 @@
+//! Forces that are not determined, and cones that bound them: contacts push, sticking frictions stay in their friction cones.
+//!
+//! With λ₀ of least norm and a basis B of the forces without effect that bounds depend on, all λ₀ + B y have the same effect. The shares of least
+//! norm within the bounds are a quadratic programme over cones for y.
+
+use super::conic::{Cone, ConicPoint, ConicProgram};
+use super::least_norm::Freedom;
+use nalgebra::{DMatrix, DVector};
+
+/// A bound depends on forces that are open if one of them changes it by more than this, relative.
+const OPEN: f64 = 1e-9;
+
+/// Bounds are compared with this share of the largest at least: the size of one may be that of a coordinate that hardly has any inertia.
+const SMALLEST: f64 = 1e-12;
+
+/// What is left of an open part that cancels, relative.
+const CANCELLED: f64 = 1e-12;
+
+/// Where bounds allow one share only, they are widened by this, relative: what rounding may have taken.
+const BORDER: f64 = 1e-13;
+
+/// A linear function of the forces: (index of a force, factor) of what it is the sum of, and a constant.
+pub(crate) type Linear<'a> = (&'a [(usize, f64)], f64);
+
+/// Bounds with a part that is open, each linear in the forces and relative to its size.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ForceBounds {
+    /// Their rows in the lists of all.
+    pub(crate) cones: Vec<Cone>,
+    /// Per bound: size of the terms that make it.
+    pub(crate) sizes: Vec<f64>,
+    /// Per row: at the forces of least norm.
+    pub(crate) values: Vec<f64>,
+    /// How each row depends on the forces, without what has an effect.
+    changes: Vec<DVector<f64>>,
+    /// B, an orthogonal basis of these, of vectors that are equally long,
+    basis: DMatrix<f64>,
+    /// and how each row depends on it.
+    open: DMatrix<f64>,
+}
+
+impl ForceBounds {
+    pub(crate) fn clear(&mut self) {
+        self.cones.clear();
+        self.sizes.clear();
+        self.values.clear();
+        self.changes.clear();
+    }
+
+    /// Adds s ≥ 0, or s₀ ≥ √(s₁² + s₂²), of `forces` of least norm. False, and nothing happens, if no part of it is open; its size is that of its
+    /// terms, and `least_size` at least.
+    pub(crate) fn add<const N: usize>(
+        &mut self,
+        rows: [Linear<'_>; N],
+        forces: impl Fn(usize) -> f64,
+        freedom: &Freedom,
+        least_size: impl FnOnce() -> f64,
+    ) -> bool {
+        let changes = rows.map(|(terms, _)| {
+            let largest = terms.iter().fold(0.0_f64, |m, (_, a)| m.max(a.abs()));
+            let change = DVector::from_fn(freedom.size(), |j, _| {
+                terms.iter().map(|&(i, a)| a * freedom.row(i)[j]).sum()
+            });
+            let share = if largest > 0.0 {
+                change.amax() / largest
+            } else {
+                0.0
+            };
+            (change, share)
+        });
+        if changes.iter().all(|&(_, share)| share <= OPEN) {
+            return false;
+        }
+        let made_of = rows.iter().map(|(terms, constant)| {
+            let parts = terms.iter().map(|&(i, a)| (a * forces(i)).abs());
+            parts.sum::<f64>() + constant.abs()
+        });
+        self.sizes.push(made_of.fold(least_size(), f64::max));
+        let first = self.values.len();
+        self.cones.push(match N {
+            1 => Cone::Ray(first),
+            _ => Cone::SecondOrder(first),
+        });
+        for ((terms, constant), (mut change, share)) in rows.into_iter().zip(changes) {
+            let value: f64 = terms.iter().map(|&(i, a)| a * forces(i)).sum();
+            self.values.push(value + constant);
+            if share <= CANCELLED {
+                change.fill(0.0);
+            }
+            self.changes.push(change);
+        }
+        true
+    }
+
+    /// Makes all bounds relative to their sizes, and finds a basis of what they depend on; nothing if there are none.
+    pub(crate) fn complete(&mut self) {
+        let Some(width) = self.changes.first().map(|change| change.len()) else {
+            return;
+        };
+        let sizes = self.sizes.iter().copied();
+        let least = (SMALLEST * sizes.fold(0.0, f64::max)).max(f64::MIN_POSITIVE);
+        let basis = basis(&self.changes, width);
+        self.open = DMatrix::from_fn(self.changes.len(), basis.ncols(), |i, j| {
+            self.changes[i].dot(&basis.column(j))
+        });
+        for (size, cone) in self.sizes.iter_mut().zip(&self.cones) {
+            *size = size.max(least);
+            for row in cone.rows() {
+                self.values[row] /= *size;
+                self.open.row_mut(row).unscale_mut(*size);
+            }
+        }
+        // Numbers about 1.
+        let scale = self
+            .open
+            .iter()
+            .fold(f64::MIN_POSITIVE, |m, x| m.max(x.abs()));
+        self.open /= scale;
+        self.basis = basis / scale;
+    }
+
+    /// The least of bounds with these `values` as they are.
+    pub(crate) fn least(&self, values: &[f64]) -> f64 {
+        let of = |cone: &Cone| match *cone {
+            Cone::Ray(i) => values[i],
+            Cone::SecondOrder(i) => values[i] - values[i + 1].hypot(values[i + 2]),
+        };
+        self.cones.iter().map(of).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The forces (y, margin) that keep bounds with these `values` by the largest margin up to `most`.
+    pub(crate) fn widest(&self, values: &[f64], most: f64) -> ConicPoint {
+        let (rows, columns) = self.open.shape();
+        let mut a = self.open.clone().resize(rows + 1, columns + 1, 0.0);
+        let mut cones = self.cones.clone();
+        cones.push(Cone::Ray(rows));
+        for cone in &cones {
+            a[(cone.first(), columns)] = -1.0;
+        }
+        let mut start = DVector::zeros(columns + 1);
+        start[columns] = self.least(values).min(most) - 1.0;
+        let mut c = DVector::zeros(columns + 1);
+        c[columns] = -1.0;
+        let program = ConicProgram {
+            squares: DVector::zeros(columns + 1),
+            c,
+            a,
+            b: DVector::from_iterator(rows + 1, values.iter().copied().chain([most])),
+            cones,
+        };
+        program.solve(start)
+    }
+
+    /// By how much forces can keep all bounds, at most 1, or must break one.
+    pub(crate) fn widest_margin(&self) -> f64 {
+        self.widest(&self.values, 1.0).x[self.basis.ncols()]
+    }
+
+    /// What takes the forces of least norm to those of least norm that keep all bounds by `margin`, relative, or come as near to that as any
+    /// do; `None` if they keep them as they are.
+    pub(crate) fn shares(&self, margin: f64) -> Option<DVector<f64>> {
+        if self.least(&self.values) >= margin {
+            return None;
+        }
+        let free = self.basis.ncols();
+        let widest = self.widest(&self.values, 1.0).x;
+        let program = self.nearest((widest[free] - BORDER).min(margin));
+        Some(&self.basis * program.solve(widest.rows(0, free).into_owned()).x)
+    }
+
+    /// What is to be solved for the forces of least norm that keep all bounds by `margin`.
+    fn nearest(&self, margin: f64) -> ConicProgram {
+        let columns = self.open.ncols();
+        let mut b = DVector::from_column_slice(&self.values);
+        for cone in &self.cones {
+            b[cone.first()] -= margin;
+        }
+        ConicProgram {
+            squares: DVector::repeat(columns, 1.0),
+            c: DVector::zeros(columns),
+            a: self.open.clone(),
+            b,
+            cones: self.cones.clone(),
+        }
+    }
+}
+
+/// An orthonormal basis of the space that these rows span (Gram & Schmidt, the largest remainder first).
+fn basis(rows: &[DVector<f64>], width: usize) -> DMatrix<f64> {
+    let units = rows.iter().filter_map(|row| row.try_normalize(0.0));
+    let mut left: Vec<DVector<f64>> = units.collect();
+    let mut basis: Vec<DVector<f64>> = Vec::new();
+    while let Some(largest) = (left.iter()).max_by(|x, y| x.norm().total_cmp(&y.norm()))
+        && largest.norm() > OPEN
+        && basis.len() < width
+    {
+        let mut next = largest.normalize();
+        for known in &basis {
+            next -= known * known.dot(&next);
+        }
+        next.normalize_mut();
+        for row in &mut left {
+            *row -= &next * next.dot(row);
+        }
+        basis.push(next);
+    }
+    DMatrix::from_iterator(width, basis.len(), basis.iter().flatten().copied())
+}

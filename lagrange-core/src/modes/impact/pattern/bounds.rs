@@ -1,0 +1,85 @@
+//! How impulses are shared that the law leaves open: an edge of a die that lands and sticks at both ends, a beam that falls on three supports.
+//!
+//! Of all with the same effect those of least norm count, within what bounds them: contacts push, and frictions that stick stay in their cones.
+
+use super::{Pattern, Phase, Slide};
+use crate::arithmetic::Scalar;
+use crate::linear::{Freedom, least_norm};
+use crate::modes::impact::collision::{Collision, NormalSource};
+
+/// By so much bounds are kept where they can be, relative, so that rounding does not take the impulses beyond them.
+const INSIDE: f64 = 1e-12;
+
+impl<T: Scalar> Pattern<T> {
+    /// Shares impulses that are not determined.
+    pub(super) fn share(&mut self, c: &Collision<T>, phase: &Phase<T>) {
+        let unknowns = self.unknowns.iter();
+        let columns: Vec<T> = unknowns
+            .clone()
+            .flat_map(|&row| (0..c.size).map(move |i| (i, row)))
+            .map(|(i, row)| self.effect(c, i, row))
+            .collect();
+        let mut shared: Vec<T> = unknowns.map(|&row| self.impulses[row]).collect();
+        let count = shared.len();
+        let freedom = least_norm(&columns, c.size, count, &mut shared);
+        self.bound(c, phase, &shared, &freedom);
+        if let Some(change) = self.bounds.shares(INSIDE) {
+            // The same effect, and the same derivatives of it: what is added has none of its own, and the rest makes up for that.
+            let change = change.iter().map(|&x| T::from_f64(x));
+            let change: Vec<T> = change.collect();
+            for (impulse, &more) in shared.iter_mut().zip(&change) {
+                *impulse -= more;
+            }
+            least_norm(&columns, c.size, count, &mut shared);
+            for (impulse, more) in shared.iter_mut().zip(change) {
+                *impulse += more;
+            }
+        }
+        for (&row, impulse) in self.unknowns.iter().zip(shared) {
+            self.impulses[row] = impulse;
+        }
+    }
+
+    /// Lists what bounds the unknown impulses, which are these where they are of least norm.
+    fn bound(&mut self, c: &Collision<T>, phase: &Phase<T>, least: &[T], freedom: &Freedom) {
+        self.bounds.clear();
+        let place = |row: usize| self.unknowns.iter().position(|&unknown| unknown == row);
+        let impulse = |i: usize| least[i].value();
+        for (k, touch) in c.touches.iter().enumerate() {
+            if let Some(i) = place(touch.row) {
+                let push = [(&[(i, 1.0)][..], -phase.least[k].value())];
+                self.bounds.add(push, impulse, freedom, || 0.0);
+            }
+        }
+        for (rub, slide) in c.rubs.iter().zip(&self.slides) {
+            let bearer = c.bearing_row(rub);
+            let (Slide::Stick, Some(i)) = (slide, place(rub.row)) else {
+                continue;
+            };
+            let most = (rub.stick * rub.factor).value();
+            let (limit, constant) = match place(bearer) {
+                Some(n) => {
+                    // The sign of a constraint's impulse is that which it has.
+                    let against =
+                        matches!(rub.bearer, NormalSource::ConstraintRow(_)) && impulse(n) < 0.0;
+                    ((n, if against { -most } else { most }), 0.0)
+                }
+                None => ((i, 0.0), most * self.impulses[bearer].value().abs()),
+            };
+            if rub.components == 1 {
+                for sign in [-1.0, 1.0] {
+                    let side = [(&[(i, sign), limit][..], constant)];
+                    self.bounds.add(side, impulse, freedom, || 0.0);
+                }
+            } else {
+                let cone = [
+                    (&[limit][..], constant),
+                    (&[(i, 1.0)][..], 0.0),
+                    (&[(i + 1, 1.0)][..], 0.0),
+                ];
+                self.bounds.add(cone, impulse, freedom, || 0.0);
+            }
+        }
+        self.bounds.complete();
+    }
+}
