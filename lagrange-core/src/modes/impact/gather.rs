@@ -25,6 +25,8 @@ pub(super) struct Gathering<T> {
     factors: Equilibrated<T>,
     /// (Δv, Λ of `bilateral`) of a unit impulse in every row.
     answers: Vec<T>,
+    /// The same of what takes away the rates that errors of the run have left `bilateral` with.
+    correction: Vec<T>,
 }
 
 impl<T: Scalar> Gathering<T> {
@@ -45,6 +47,7 @@ impl<T: Scalar> Gathering<T> {
         if !self.answer(dynamics) {
             return false;
         }
+        self.correct(dynamics);
         out.response.clear();
         out.rates.clear();
         out.terms.clear();
@@ -57,7 +60,7 @@ impl<T: Scalar> Gathering<T> {
             out.rates.push(if self.at_rest[i] {
                 T::zero()
             } else {
-                dynamics.motion(d.rows[self.rows[i]].velocity)
+                dynamics.motion(d.rows[self.rows[i]].velocity) + dot(a, &self.correction[..n])
             });
             let terms = a.iter().zip(v).map(|(&a, &v)| (a * v).value().abs());
             out.terms.push(terms.sum());
@@ -104,6 +107,21 @@ impl<T: Scalar> Gathering<T> {
             }
         }
         true
+    }
+
+    /// Finds what takes away the rates of bilateral rows, whose rate vanishes after an impact: where rows depend on one another by them, as
+    /// slips of two corners of a body by the unit length of its quaternion, no impulse would stop all.
+    fn correct(&mut self, dynamics: &Dynamics<T>) {
+        let d = dynamics.description();
+        let n = d.coordinates.len();
+        let correction = &mut self.correction;
+        correction.clear();
+        correction.resize(n, T::zero());
+        let rates = self.bilateral.iter();
+        correction.extend(rates.map(|&row| -dynamics.motion(d.rows[row].velocity)));
+        if !self.factors.solve(correction) {
+            correction.fill(T::zero());
+        }
     }
 
     /// Which rows there are.
@@ -214,9 +232,13 @@ impl<T: Scalar> Gathering<T> {
         let n = v.len();
         let bilateral = self.bilateral.len();
         let size = n + bilateral;
+        let (change, along) = self.correction.split_at(n);
         out.v.clear();
-        out.v.extend_from_slice(v);
+        out.v.extend(v.iter().zip(change).map(|(&v, &x)| v + x));
         out.impulses.fill(T::zero());
+        for (&row, &impulse) in self.bilateral.iter().zip(along) {
+            out.impulses[row] = impulse;
+        }
         for (k, answer) in self.answers.chunks_exact(size.max(1)).enumerate() {
             let share = impulses[k];
             if share.is_zero() {
