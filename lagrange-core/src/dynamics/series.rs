@@ -61,6 +61,8 @@ impl<T: Scalar> Dynamics<T> {
             Ok(true)
         } else {
             self.expand_from_rest(order)?;
+            // Beside slips that begin others go on, and turn.
+            self.take_slip_directions_of_series();
             Ok(false)
         }
     }

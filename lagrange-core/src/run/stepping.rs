@@ -166,8 +166,20 @@ impl<T: Scalar> Run<T> {
                 self.first_hit()
             };
             let end = hit.end();
+                eprintln!(
+                    "STEP t {:.17} h {h:e} moves {moves:e} end {end:e} whole {whole} fallen {:?} rests {} {}",
+                    self.now.t.value(),
+                    self.locator.fallen,
+                    self.locator.rests.len(),
+                    self.now.mode.display(self.description())
+                );
+            }
             if end == 0.0 {
-                return Ok(hit);
+                return match hit {
+                    // It would be found again.
+                    Hit::Turned(_) => Err(self.step_too_small(h)),
+                    hit => Ok(hit),
+                };
             }
             // Evaluated here, the end of the step also serves the event log. A slip that vanishes there has no direction.
             let looked = if self.locator.rests.is_empty() {

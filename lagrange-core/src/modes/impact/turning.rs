@@ -1,18 +1,21 @@
 //! Slips with two components, whose directions are unknowns: Newton's method.
 //!
 //! ```text
-//! Λₜ + μk N s⁺/|s⁺| = 0        together with all other equations of the combination
+//! Λₜ = μk N w/|w|,  w = Λₜ − s⁺/g        together with all other equations of the combination
 //! ```
+//!
+//! says the same as Λₜ = −μk N s⁺/|s⁺| if |w| ≥ μk N, and has a direction where the slip that is left is small beside that taken away (Alart & Curnier
+//! 1991, Computer Methods in Applied Mechanics and Engineering 92, 353; g is what an impulse does to its own rate).
 
 use super::collision::{Collision, FrictionRow, NormalSource};
-use super::pattern::{Pattern, Phase, Slide};
+use super::pattern::{Pattern, Phase, Slide, length};
 use crate::arithmetic::Scalar;
 
 /// Newton steps for directions of slip.
 const MOST_STEPS: usize = 30;
 
 impl<T: Scalar> Pattern<T> {
-    /// Newton's method for Λₜ + μ N s⁺/|s⁺| = 0 together with all other equations.
+    /// Newton's method for all equations together; false if it does not converge, or friction would drive a slip.
     pub fn turn(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
         let linear = self.unknowns.len();
         for (rub, slide) in c.rubs.iter().zip(&self.slides) {
@@ -22,7 +25,14 @@ impl<T: Scalar> Pattern<T> {
         }
         let converged = self.newton(c, phase, linear);
         self.unknowns.truncate(linear);
-        converged
+        let drives = |(rub, slide): (&FrictionRow<T>, &Slide)| {
+            let [impulse, slip] = [&self.impulses, &self.after]
+                .map(|of| [of[rub.row].value(), of[rub.row + 1].value()]);
+            let along = impulse[0] * slip[0] + impulse[1] * slip[1];
+            let size = impulse[0].hypot(impulse[1]);
+            matches!(slide, Slide::Turning(_)) && along > self.noise[rub.row] * size
+        };
+        converged && !c.rubs.iter().zip(&self.slides).any(drives)
     }
 
     fn newton(&mut self, c: &Collision<T>, phase: &Phase<T>, linear: usize) -> bool {
@@ -68,13 +78,36 @@ impl<T: Scalar> Pattern<T> {
             }
             self.slide_fixed(c);
             self.move_on(c, phase);
-            // Quadratic: what is left after a step this small is rounding.
-            if change <= 1e-15 * size || (change <= 1e-12 * size && change >= 0.5 * last) {
+            // Quadratic: what is left after a step this small is rounding. Of a small slip rounding leaves the direction open.
+            let stalls = change >= 0.5 * last;
+            if change <= 1e-15 * size
+                || stalls && (change <= 1e-12 * size || self.is_settled(c, phase, linear))
+            {
                 return true;
             }
             last = change;
         }
         false
+    }
+
+    /// Whether what is missing in all equations is rounding.
+    fn is_settled(&self, c: &Collision<T>, phase: &Phase<T>, linear: usize) -> bool {
+        let meets = |at: usize| {
+            let row = self.unknowns[at];
+            let size = match self.share_at(at) {
+                Some(_) => c.g(row, row).value(),
+                None => 1.0,
+            };
+            (size * self.missing(c, phase, at).value()).abs() <= self.noise[row]
+        };
+        let turns = |(rub, slide): (&FrictionRow<T>, &Slide)| {
+            !matches!(slide, Slide::Turning(_))
+                || self.heading(c, rub).is_some_and(|heading| {
+                    let left = heading.missing(self, rub).map(|x| x.value());
+                    heading.own * length(&left) <= self.noise[rub.row]
+                })
+        };
+        (0..linear).all(meets) && c.rubs.iter().zip(&self.slides).all(turns)
     }
 
     /// [`Self::slide`] for what has one component.
@@ -100,7 +133,28 @@ impl<T: Scalar> Pattern<T> {
         effect
     }
 
-    /// Rows of Newton's matrix for a turning friction; false where it does not slip.
+    /// Where a turning friction heads; `None` where it has no direction.
+    fn heading(&self, c: &Collision<T>, rub: &FrictionRow<T>) -> Option<Heading<T>> {
+        let own = 0.5 * (c.g(rub.row, rub.row) + c.g(rub.row + 1, rub.row + 1)).value();
+        let share = T::from_f64(1.0 / own);
+        let w = [0, 1].map(|k| self.impulses[rub.row + k] - share * self.after[rub.row + k]);
+        let length = (w[0] * w[0] + w[1] * w[1]).sqrt();
+        let press = self.impulses[c.bearing_row(rub)];
+        let sign = match rub.bearer {
+            NormalSource::ConstraintRow(_) if press.value() < 0.0 => -T::one(),
+            _ => T::one(),
+        };
+        let coefficient = rub.slide * rub.factor * sign;
+        (own > 0.0 && length.value() > 0.0).then(|| Heading {
+            own,
+            along: w.map(|x| x / length),
+            length,
+            coefficient,
+            normal: coefficient * press,
+        })
+    }
+
+    /// Rows of Newton's matrix for a turning friction; false where it has no direction.
     fn linearize(
         &self,
         c: &Collision<T>,
@@ -108,35 +162,44 @@ impl<T: Scalar> Pattern<T> {
         matrix: &mut Vec<T>,
         right: &mut Vec<T>,
     ) -> bool {
-        let s = [0, 1].map(|k| self.after[rub.row + k]);
-        let length = (s[0] * s[0] + s[1] * s[1]).sqrt();
-        if !(length.value() > 0.0) {
+        let Some(heading) = self.heading(c, rub) else {
             return false;
-        }
-        let along = s.map(|x| x / length);
-        let bearer = c.bearing_row(rub);
-        let press = self.impulses[bearer];
-        let sign = match rub.bearer {
-            NormalSource::ConstraintRow(_) if press.value() < 0.0 => -T::one(),
-            _ => T::one(),
         };
-        let coefficient = rub.slide * rub.factor * sign;
-        let normal = coefficient * press;
+        let Heading { along, .. } = heading;
+        let bearer = c.bearing_row(rub);
+        let share = T::from_f64(1.0 / heading.own);
+        let unit = |yes: bool| if yes { T::one() } else { T::zero() };
         for k in 0..2 {
             for &row in &self.unknowns {
-                let ds = [0, 1].map(|l| self.plain_effect(c, rub.row + l, row));
-                let across = ds[k] - along[k] * (along[0] * ds[0] + along[1] * ds[1]);
-                let mut entry = normal * across / length;
-                if row == bearer {
-                    entry += coefficient * along[k];
-                }
-                if row == rub.row + k {
-                    entry += T::one();
-                }
-                matrix.push(entry);
+                let own = [0, 1].map(|l| unit(row == rub.row + l));
+                let dw = [0, 1].map(|l| own[l] - share * self.plain_effect(c, rub.row + l, row));
+                let across = dw[k] - along[k] * (along[0] * dw[0] + along[1] * dw[1]);
+                let pressed = heading.coefficient * along[k] * unit(row == bearer);
+                matrix.push(own[k] - pressed - heading.normal * across / heading.length);
             }
-            right.push(-(self.impulses[rub.row + k] + normal * along[k]));
         }
+        right.extend(heading.missing(self, rub));
         true
+    }
+}
+
+/// Where a friction of two components heads.
+struct Heading<T> {
+    /// g
+    own: f64,
+    /// w/|w|
+    along: [T; 2],
+    /// |w|
+    length: T,
+    /// μk N over the impulse of the bearer.
+    coefficient: T,
+    /// μk N
+    normal: T,
+}
+
+impl<T: Scalar> Heading<T> {
+    /// What is missing in its equations.
+    fn missing(&self, pattern: &Pattern<T>, rub: &FrictionRow<T>) -> [T; 2] {
+        [0, 1].map(|k| self.normal * self.along[k] - pattern.impulses[rub.row + k])
     }
 }

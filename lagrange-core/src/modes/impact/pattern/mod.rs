@@ -60,8 +60,9 @@ pub(super) struct Pattern<T> {
     pub impulses: Vec<T>,
     /// Rates after.
     pub after: Vec<T>,
-    /// What rounding leaves of them.
+    /// What rounding leaves of them, so many times.
     pub noise: Vec<f64>,
+    pub blur: f64,
     /// Whether impulses are not determined (they are then of least norm).
     pub undetermined: bool,
     pub(super) unknowns: Vec<usize>,
@@ -222,8 +223,8 @@ impl<T: Scalar> Pattern<T> {
                 size += part.value().abs();
             }
             self.after.push(rate);
-            self.noise
-                .push(ROUNDING * size + TERMS * (c.terms[i] + c.strength(i) * effort));
+            let rounding = ROUNDING * size + TERMS * (c.terms[i] + c.strength(i) * effort);
+            self.noise.push(self.blur * rounding);
         }
     }
 }

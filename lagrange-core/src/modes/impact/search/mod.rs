@@ -22,6 +22,10 @@ const FEW: usize = 100;
 /// So many are tried if that has failed.
 const MOST: usize = 20_000;
 
+/// Inequalities hold to what rounding leaves; if none does so, to so many times that: at the edge of a friction cone, where sticking and sliding
+/// differ by no more than errors of the state.
+const BLURS: [f64; 2] = [1.0, 1e4];
+
 /// A search for the combination that holds; the memory is reused.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Search<T> {
@@ -47,6 +51,14 @@ impl<T: Scalar> Search<T> {
         self.taking.clear();
         self.taking
             .extend((0..c.touches.len()).filter(|k| phase.within[*k]));
+        BLURS.into_iter().any(|blur| {
+            self.pattern.blur = blur;
+            self.find_within(c, phase)
+        })
+    }
+
+    /// The same for what counts as rounding.
+    fn find_within(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
         let count = self.combinations(c);
         let several = c.rubs.iter().filter(|rub| rub.components > 1).count() > 1;
         if several {
