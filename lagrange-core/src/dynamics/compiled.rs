@@ -117,6 +117,14 @@ impl<T: Scalar> Compiled<T> {
             self.interpreted.list.clear();
             self.solver
                 .reserve(self.pattern.free(), self.pattern.kept.len());
+            let free = &self.pattern.elimination.free;
+            let place = |j: usize| free.iter().position(|&free| free == j);
+            let firsts = d.constraints.iter().filter_map(|c| c.attitude);
+            let quaternions = firsts.filter_map(|first| {
+                let [a, b, c, d] = [0, 1, 2, 3].map(|k| place(first + k));
+                Some([a?, b?, c?, d?])
+            });
+            self.solver.set_quaternions(quaternions);
         }
     }
 

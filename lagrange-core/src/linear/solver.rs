@@ -83,6 +83,8 @@ pub(crate) struct Solver<T> {
     scale: Vec<f64>,
     /// Coordinates with hardly any inertia beside the others.
     light: Vec<bool>,
+    /// Coordinates of unit quaternions.
+    quaternions: Vec<[usize; 4]>,
     factors: Factors,
     direct: Direct<T>,
     lu: Lu<T>,
@@ -120,6 +122,13 @@ impl<T: Scalar> Solver<T> {
         self.work.reserve(size);
         self.direct.reserve(size);
         self.lu.reserve(size);
+    }
+
+    /// Says which coordinates are those of unit quaternions: they are of one kind, and have one scale. Close to an attitude in which one element is 1 this
+    /// has no inertia of its own.
+    pub(crate) fn set_quaternions(&mut self, quaternions: impl Iterator<Item = [usize; 4]>) {
+        self.quaternions.clear();
+        self.quaternions.extend(quaternions);
     }
 
     /// The row-major matrix to be filled, set to `constant`.
@@ -230,9 +239,12 @@ impl<T: Scalar> Solver<T> {
         let (n, size) = (self.coordinates, self.size);
         self.find_light();
         self.scale.clear();
+        let inertia = |j: usize| self.matrix[j * size + j].value().abs();
         for j in 0..n {
-            let inertia = self.matrix[j * size + j].value().abs();
-            self.scale.push(if inertia > 0.0 && !self.light[j] {
+            let of = self.quaternions.iter().find(|of| of.contains(&j));
+            let largest = of.map(|of| of.map(inertia).into_iter().fold(0.0, f64::max));
+            let inertia = largest.unwrap_or_else(|| inertia(j));
+            self.scale.push(if inertia > 0.0 && (of.is_some() || !self.light[j]) {
                 inverse_root(inertia)
             } else {
                 let column = (0..size).map(|i| self.matrix[i * size + j].value().abs());
@@ -250,7 +262,7 @@ impl<T: Scalar> Solver<T> {
     }
 
     /// Finds the coordinates from which a row gets nearly all of its compliance Σ aₖ²/mₖ: scaled by such an inertia the others would
-    /// vanish beside it. The scalar part of a unit quaternion has hardly any inertia close to the attitude in which it is 1.
+    /// vanish beside it.
     fn find_light(&mut self) {
         let (n, size) = (self.coordinates, self.size);
         self.light.clear();

@@ -166,14 +166,6 @@ impl<T: Scalar> Run<T> {
                 self.first_hit()
             };
             let end = hit.end();
-                eprintln!(
-                    "STEP t {:.17} h {h:e} moves {moves:e} end {end:e} whole {whole} fallen {:?} rests {} {}",
-                    self.now.t.value(),
-                    self.locator.fallen,
-                    self.locator.rests.len(),
-                    self.now.mode.display(self.description())
-                );
-            }
             if end == 0.0 {
                 return match hit {
                     // It would be found again.
