@@ -21,8 +21,11 @@ pub(super) struct Gathering<T> {
     bilateral: Vec<usize>,
     /// Dense Jacobian of `rows`, then of `bilateral`.
     jacobian: Vec<T>,
+    /// [M −Bᵀ; B 0], and the same scaled.
     matrix: Vec<T>,
+    scaled: Vec<T>,
     factors: Equilibrated<T>,
+    rest: Vec<T>,
     /// (Δv, Λ of `bilateral`) of a unit impulse in every row.
     answers: Vec<T>,
     /// The same of what takes away the rates that errors of the run have left `bilateral` with.
@@ -96,17 +99,38 @@ impl<T: Scalar> Gathering<T> {
                 self.matrix[j * size + n + k] = -a;
             }
         }
-        self.factors.factor(&mut self.matrix, size);
-        self.answers.clear();
-        self.answers.resize(count * size, T::zero());
-        for k in 0..count {
-            let answer = &mut self.answers[k * size..(k + 1) * size];
+        self.scaled.clone_from(&self.matrix);
+        self.factors.factor(&mut self.scaled, size);
+        let mut answers = core::mem::take(&mut self.answers);
+        answers.clear();
+        answers.resize(count * size, T::zero());
+        let solved = (0..count).all(|k| {
+            let answer = &mut answers[k * size..(k + 1) * size];
             answer[..n].copy_from_slice(&self.jacobian[k * n..(k + 1) * n]);
-            if !self.factors.solve(answer) {
-                return false;
+            self.solve(answer)
+        });
+        self.answers = answers;
+        solved
+    }
+
+    /// Replaces a right-hand side by the solution, with one step of refinement: each equation then holds to rounding of its own terms (Skeel 1980,
+    /// Mathematics of Computation 35, 817). False if it has none.
+    fn solve(&mut self, b: &mut [T]) -> bool {
+        let size = b.len();
+        let mut rest = core::mem::take(&mut self.rest);
+        rest.clear();
+        rest.extend_from_slice(b);
+        let solved = self.factors.solve(b);
+        if solved {
+            for (rest, row) in rest.iter_mut().zip(self.matrix.chunks_exact(size)) {
+                *rest -= dot(row, b);
+            }
+            if self.factors.solve(&mut rest) {
+                b.iter_mut().zip(&rest).for_each(|(x, &more)| *x += more);
             }
         }
-        true
+        self.rest = rest;
+        solved
     }
 
     /// Finds what takes away the rates of bilateral rows, whose rate vanishes after an impact: where rows depend on one another by them, as
@@ -114,14 +138,15 @@ impl<T: Scalar> Gathering<T> {
     fn correct(&mut self, dynamics: &Dynamics<T>) {
         let d = dynamics.description();
         let n = d.coordinates.len();
-        let correction = &mut self.correction;
+        let mut correction = core::mem::take(&mut self.correction);
         correction.clear();
         correction.resize(n, T::zero());
         let rates = self.bilateral.iter();
         correction.extend(rates.map(|&row| -dynamics.motion(d.rows[row].velocity)));
-        if !self.factors.solve(correction) {
+        if !self.solve(&mut correction) {
             correction.fill(T::zero());
         }
+        self.correction = correction;
     }
 
     /// Which rows there are.
