@@ -237,6 +237,8 @@ impl<T: Scalar> Examination<'_, T> {
             self.bridge(k);
             self.events_until(t, &begin, k == 0, t + h * end > t);
             self.join(t, &begin);
+            // Also where a mode ends as it begins.
+            self.time = t;
             self.begin = begin;
             if h * end > 0.0 {
                 self.place(k, end);
