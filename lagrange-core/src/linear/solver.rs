@@ -244,13 +244,14 @@ impl<T: Scalar> Solver<T> {
             let of = self.quaternions.iter().find(|of| of.contains(&j));
             let largest = of.map(|of| of.map(inertia).into_iter().fold(0.0, f64::max));
             let inertia = largest.unwrap_or_else(|| inertia(j));
-            self.scale.push(if inertia > 0.0 && (of.is_some() || !self.light[j]) {
-                inverse_root(inertia)
-            } else {
-                let column = (0..size).map(|i| self.matrix[i * size + j].value().abs());
-                let largest = column.fold(0.0, f64::max);
-                inverse_root(largest * largest)
-            });
+            self.scale
+                .push(if inertia > 0.0 && (of.is_some() || !self.light[j]) {
+                    inverse_root(inertia)
+                } else {
+                    let column = (0..size).map(|i| self.matrix[i * size + j].value().abs());
+                    let largest = column.fold(0.0, f64::max);
+                    inverse_root(largest * largest)
+                });
         }
         for row in n..size {
             let scaled = self.matrix[row * size..][..n].iter().zip(&self.scale);

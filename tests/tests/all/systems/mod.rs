@@ -22,6 +22,7 @@ mod cue_ball;
 mod damped;
 mod dead_points;
 mod dependent;
+mod die;
 mod fading;
 mod falls_flat;
 mod feasible;

@@ -12,6 +12,29 @@ pub(in crate::modes::impact) enum Violation {
 }
 
 impl<T: Scalar> Pattern<T> {
+    /// Solves the combination; whether all inequalities hold.
+    pub fn is_solution(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
+        self.solve(c, phase) && self.violation(c, phase).is_none()
+    }
+
+    /// Lets turning frictions stick whose slips have vanished; what they did before, if there are any.
+    pub fn stick_at_rest(&mut self, c: &Collision<T>) -> Option<Vec<Slide>> {
+        let rests = |rub: &FrictionRow<T>, slide: &Slide| {
+            matches!(slide, Slide::Turning(_))
+                && length(&self.after[rub.row..rub.row + 2]) <= self.noise[rub.row]
+        };
+        let all = c.rubs.iter().zip(&self.slides);
+        let slides = all.map(|(rub, slide)| match rests(rub, slide) {
+            true => Slide::Stick,
+            false => *slide,
+        });
+        if slides.clone().eq(self.slides.iter().copied()) {
+            return None;
+        }
+        let slides = slides.collect();
+        Some(core::mem::replace(&mut self.slides, slides))
+    }
+
     /// The worst inequality that does not hold, rounding apart.
     pub fn violation(&self, c: &Collision<T>, phase: &Phase<T>) -> Option<Violation> {
         let mut worst: Option<(f64, Violation)> = None;

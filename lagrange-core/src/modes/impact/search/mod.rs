@@ -72,8 +72,17 @@ impl<T: Scalar> Search<T> {
         self.complement(c, phase) || count.is_some_and(|n| n <= MOST) && self.enumerate(c, phase)
     }
 
-    /// Solves and judges the present combination.
+    /// Solves and judges the present combination. What comes to rest in it sticks, if it can: a cone leaves open how forces are shared.
     fn holds(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
-        self.pattern.solve(c, phase) && self.pattern.violation(c, phase).is_none()
+        if !self.pattern.is_solution(c, phase) {
+            return false;
+        }
+        if let Some(slides) = self.pattern.stick_at_rest(c)
+            && !self.pattern.is_solution(c, phase)
+        {
+            self.pattern.slides = slides;
+            return self.pattern.is_solution(c, phase);
+        }
+        true
     }
 }
