@@ -104,7 +104,7 @@ impl<T: Scalar> Pattern<T> {
             !matches!(slide, Slide::Turning(_))
                 || self.heading(c, rub).is_some_and(|heading| {
                     let left = heading.missing(self, rub).map(|x| x.value());
-                    heading.own * length(&left) <= self.noise[rub.row]
+                    heading.own * length(&left) <= self.leeway * self.noise[rub.row]
                 })
         };
         (0..linear).all(meets) && c.rubs.iter().zip(&self.slides).all(turns)

@@ -58,7 +58,7 @@ impl<T: Scalar> Pattern<T> {
         }
         for (r, rub) in c.rubs.iter().enumerate() {
             if let Some((excess, noise)) = self.excess(c, rub, self.slides[r]) {
-                judge(excess, noise, Violation::FrictionRow(r));
+                judge(excess, self.leeway * noise, Violation::FrictionRow(r));
             }
         }
         worst.map(|(_, what)| what)

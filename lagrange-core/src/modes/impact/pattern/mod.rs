@@ -60,9 +60,10 @@ pub(super) struct Pattern<T> {
     pub impulses: Vec<T>,
     /// Rates after.
     pub after: Vec<T>,
-    /// What rounding leaves of them, so many times.
+    /// What rounding leaves of them.
     pub noise: Vec<f64>,
-    pub blur: f64,
+    /// The law of friction holds to so many times that.
+    pub leeway: f64,
     /// Whether impulses are not determined (they are then of least norm).
     pub undetermined: bool,
     pub(super) unknowns: Vec<usize>,
@@ -162,20 +163,12 @@ impl<T: Scalar> Pattern<T> {
             self.impulses[row] = T::zero();
         }
         for _ in 0..2 {
-            self.slide(c);
-            self.move_on(c, phase);
-            let mut right = core::mem::take(&mut self.right);
-            right.clear();
-            right.extend((0..count).map(|at| self.missing(c, phase, at)));
-            self.factors.solve(&mut right);
-            for (&row, &x) in self.unknowns.iter().zip(&right) {
-                self.impulses[row] += x;
-            }
-            self.right = right;
+            self.improve(c, phase);
         }
         if self.factors.is_deficient() {
             self.undetermined = true;
             self.share(c, phase);
+            self.improve(c, phase);
         }
         self.slide(c);
         self.move_on(c, phase);
@@ -183,6 +176,20 @@ impl<T: Scalar> Pattern<T> {
         let far =
             |&i: &usize| (self.after[i] - aim(c, phase, i)).value().abs() > 10.0 * self.noise[i];
         !self.unknowns.iter().any(far)
+    }
+
+    /// Adds to the unknowns what the equations miss.
+    fn improve(&mut self, c: &Collision<T>, phase: &Phase<T>) {
+        self.slide(c);
+        self.move_on(c, phase);
+        let mut right = core::mem::take(&mut self.right);
+        right.clear();
+        right.extend((0..self.unknowns.len()).map(|at| self.missing(c, phase, at)));
+        self.factors.solve(&mut right);
+        for (&row, &x) in self.unknowns.iter().zip(&right) {
+            self.impulses[row] += x;
+        }
+        self.right = right;
     }
 
     /// What is missing in the equation of an unknown.
@@ -224,7 +231,7 @@ impl<T: Scalar> Pattern<T> {
             }
             self.after.push(rate);
             let rounding = ROUNDING * size + TERMS * (c.terms[i] + c.strength(i) * effort);
-            self.noise.push(self.blur * rounding);
+            self.noise.push(rounding);
         }
     }
 }

@@ -22,9 +22,9 @@ const FEW: usize = 100;
 /// So many are tried if that has failed.
 const MOST: usize = 20_000;
 
-/// Inequalities hold to what rounding leaves; if none does so, to so many times that: at the edge of a friction cone, where sticking and sliding
-/// differ by no more than errors of the state.
-const BLURS: [f64; 2] = [1.0, 1e4];
+/// Frictions obey their law to what rounding leaves; if no combination does so, to so many times that: at the edge of a cone sticking and sliding
+/// differ by no more than errors of the state, and what slides hardly has a direction.
+const LEEWAYS: [f64; 2] = [1.0, 1e4];
 
 /// A search for the combination that holds; the memory is reused.
 #[derive(Clone, Debug, Default)]
@@ -51,13 +51,13 @@ impl<T: Scalar> Search<T> {
         self.taking.clear();
         self.taking
             .extend((0..c.touches.len()).filter(|k| phase.within[*k]));
-        BLURS.into_iter().any(|blur| {
-            self.pattern.blur = blur;
+        LEEWAYS.into_iter().any(|leeway| {
+            self.pattern.leeway = leeway;
             self.find_within(c, phase)
         })
     }
 
-    /// The same for what counts as rounding.
+    /// The same for the present leeway.
     fn find_within(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
         let count = self.combinations(c);
         let several = c.rubs.iter().filter(|rub| rub.components > 1).count() > 1;
