@@ -19,6 +19,9 @@ use crate::arithmetic::Scalar;
 /// Bisections for the share of the restitution.
 const BISECTIONS: usize = 60;
 
+/// Equations that contradict one another by less than this share of the restitution seem to hold: it is none.
+const LEAST_SHARE: f64 = 1e-6;
+
 /// Solves impacts by their laws; the memory is reused.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Law<T> {
@@ -60,7 +63,7 @@ impl<T: Scalar> Law<T> {
             }
         }
         self.lowered = true;
-        self.solve_share(c, rates, low)
+        low >= LEAST_SHARE && self.solve_share(c, rates, low) || self.solve_share(c, rates, 0.0)
     }
 
     /// Whether a contact that takes part and approaches has a restitution.

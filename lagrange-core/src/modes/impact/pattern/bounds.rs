@@ -6,6 +6,7 @@ use super::{Pattern, Phase, Slide};
 use crate::arithmetic::Scalar;
 use crate::linear::{Freedom, least_norm};
 use crate::modes::impact::collision::{Collision, NormalSource};
+use nalgebra::DVector;
 
 /// By so much bounds are kept where they can be, relative, so that rounding does not take the impulses beyond them.
 const INSIDE: f64 = 1e-12;
@@ -22,8 +23,10 @@ impl<T: Scalar> Pattern<T> {
         let mut shared: Vec<T> = unknowns.map(|&row| self.impulses[row]).collect();
         let count = shared.len();
         let freedom = least_norm(&columns, c.size, count, &mut shared);
-        self.bound(c, phase, &shared, &freedom);
-        if let Some(change) = self.bounds.shares(INSIDE) {
+        // Where nothing sticks, the combination without contacts that would pull does the same.
+        if self.slides.contains(&Slide::Stick)
+            && let Some(change) = self.change(c, phase, &shared, &freedom)
+        {
             // The same effect, and the same derivatives of it: what is added has none of its own, and the rest makes up for that.
             let change = change.iter().map(|&x| T::from_f64(x));
             let change: Vec<T> = change.collect();
@@ -40,8 +43,14 @@ impl<T: Scalar> Pattern<T> {
         }
     }
 
-    /// Lists what bounds the unknown impulses, which are these where they are of least norm.
-    fn bound(&mut self, c: &Collision<T>, phase: &Phase<T>, least: &[T], freedom: &Freedom) {
+    /// What takes unknown impulses from those of least norm to the least within their bounds; nothing if they are within them.
+    fn change(
+        &mut self,
+        c: &Collision<T>,
+        phase: &Phase<T>,
+        least: &[T],
+        freedom: &Freedom,
+    ) -> Option<DVector<f64>> {
         self.bounds.clear();
         let place = |row: usize| self.unknowns.iter().position(|&unknown| unknown == row);
         let impulse = |i: usize| least[i].value();
@@ -81,5 +90,6 @@ impl<T: Scalar> Pattern<T> {
             }
         }
         self.bounds.complete();
+        self.bounds.shares(INSIDE)
     }
 }

@@ -58,7 +58,8 @@ impl<T: Scalar> Pattern<T> {
         }
         for (r, rub) in c.rubs.iter().enumerate() {
             if let Some((excess, noise)) = self.excess(c, rub, self.slides[r]) {
-                judge(excess, self.leeway * noise, Violation::FrictionRow(r));
+                let leeway = if rub.components > 1 { self.leeway } else { 1.0 };
+                judge(excess, leeway * noise, Violation::FrictionRow(r));
             }
         }
         worst.map(|(_, what)| what)

@@ -62,7 +62,7 @@ pub(super) struct Pattern<T> {
     pub after: Vec<T>,
     /// What rounding leaves of them.
     pub noise: Vec<f64>,
-    /// The law of friction holds to so many times that.
+    /// The law of frictions with two components holds to so many times that.
     pub leeway: f64,
     /// Whether impulses are not determined (they are then of least norm).
     pub undetermined: bool,
@@ -165,14 +165,21 @@ impl<T: Scalar> Pattern<T> {
         for _ in 0..2 {
             self.improve(c, phase);
         }
-        if self.factors.is_deficient() {
-            self.undetermined = true;
-            self.share(c, phase);
-            self.improve(c, phase);
-        }
         self.slide(c);
         self.move_on(c, phase);
-        // Equations that depend on each other may contradict each other.
+        let agrees = self.agrees(c, phase);
+        if !agrees || !self.factors.is_deficient() {
+            return agrees;
+        }
+        self.undetermined = true;
+        self.share(c, phase);
+        self.slide(c);
+        self.move_on(c, phase);
+        self.agrees(c, phase)
+    }
+
+    /// Whether the equations hold: those that depend on each other may contradict each other.
+    fn agrees(&self, c: &Collision<T>, phase: &Phase<T>) -> bool {
         let far =
             |&i: &usize| (self.after[i] - aim(c, phase, i)).value().abs() > 10.0 * self.noise[i];
         !self.unknowns.iter().any(far)

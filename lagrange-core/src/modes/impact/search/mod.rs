@@ -22,9 +22,9 @@ const FEW: usize = 100;
 /// So many are tried if that has failed.
 const MOST: usize = 20_000;
 
-/// Frictions obey their law to what rounding leaves; if no combination does so, to so many times that: at the edge of a cone sticking and sliding
-/// differ by no more than errors of the state, and what slides hardly has a direction.
-const LEEWAYS: [f64; 2] = [1.0, 1e4];
+/// Frictions with two components obey their law to what rounding leaves; if no combination does so, to so many times that: at the edge of a cone
+/// sticking and sliding differ by no more than errors of the state, and what slides hardly has a direction.
+const LEEWAY: f64 = 1e4;
 
 /// A search for the combination that holds; the memory is reused.
 #[derive(Clone, Debug, Default)]
@@ -51,10 +51,12 @@ impl<T: Scalar> Search<T> {
         self.taking.clear();
         self.taking
             .extend((0..c.touches.len()).filter(|k| phase.within[*k]));
-        LEEWAYS.into_iter().any(|leeway| {
-            self.pattern.leeway = leeway;
-            self.find_within(c, phase)
-        })
+        self.pattern.leeway = 1.0;
+        if self.find_within(c, phase) {
+            return true;
+        }
+        self.pattern.leeway = LEEWAY;
+        c.rubs.iter().any(|rub| rub.components > 1) && self.find_within(c, phase)
     }
 
     /// The same for the present leeway.
