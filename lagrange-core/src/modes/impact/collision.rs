@@ -61,6 +61,8 @@ pub(super) struct Collision<T> {
     pub rates: Vec<T>,
     /// Per row: size of the terms that its rate cancels from.
     pub terms: Vec<f64>,
+    /// Largest rate of rows that are at rest, over their strength: what errors of the run have left of it.
+    pub drift: f64,
     /// The first so many rows are constraints that always act.
     pub links: usize,
     /// `while` rows with the place of their contact among the touches.

@@ -54,17 +54,21 @@ impl<T: Scalar> Gathering<T> {
         out.response.clear();
         out.rates.clear();
         out.terms.clear();
+        out.drift = 0.0;
         for i in 0..out.size {
             let a = &self.jacobian[i * n..(i + 1) * n];
             for k in 0..out.size {
                 let change = &self.answers[k * size..k * size + n];
                 out.response.push(dot(a, change));
             }
-            out.rates.push(if self.at_rest[i] {
-                T::zero()
-            } else {
-                dynamics.motion(d.rows[self.rows[i]].velocity) + dot(a, &self.correction[..n])
-            });
+            let rate = dynamics.motion(d.rows[self.rows[i]].velocity);
+            let rate = rate + dot(a, &self.correction[..n]);
+            let strength = out.strength(i);
+            if self.at_rest[i] && strength > 0.0 {
+                out.drift = out.drift.max(rate.value().abs() / strength);
+            }
+            out.rates
+                .push(if self.at_rest[i] { T::zero() } else { rate });
             let terms = a.iter().zip(v).map(|(&a, &v)| (a * v).value().abs());
             out.terms.push(terms.sum());
         }

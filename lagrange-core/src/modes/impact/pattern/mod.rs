@@ -178,10 +178,12 @@ impl<T: Scalar> Pattern<T> {
         self.agrees(c, phase)
     }
 
-    /// Whether the equations hold: those that depend on each other may contradict each other.
+    /// Whether the equations hold: those that depend on each other may contradict each other, by more than what rows that are at rest move.
     fn agrees(&self, c: &Collision<T>, phase: &Phase<T>) -> bool {
-        let far =
-            |&i: &usize| (self.after[i] - aim(c, phase, i)).value().abs() > 10.0 * self.noise[i];
+        let far = |&i: &usize| {
+            let missing = (self.after[i] - aim(c, phase, i)).value().abs();
+            missing > 10.0 * (self.noise[i] + c.strength(i) * c.drift)
+        };
         !self.unknowns.iter().any(far)
     }
 
