@@ -128,6 +128,20 @@ impl<T: Scalar> Run<T> {
         true
     }
 
+    /// Where a step would be too short for time to resolve: whether slips that turn have all but vanished, so that they come to rest here. They are then
+    /// the fallen guards.
+    pub(super) fn slips_rest_at_once(&mut self) -> bool {
+        self.locator.rests.clear();
+        self.locator.fallen.clear();
+        let State { q, v, .. } = &self.now.state;
+        self.dynamics.tape(self.now.t, q, v);
+        // One that begins has no length yet.
+        if !self.now.mode.has_incipient_slip() {
+            self.rest_what_has_vanished();
+        }
+        !self.locator.rests.is_empty()
+    }
+
     /// Gives the instant of rest its derivatives; `earlier` has the velocities `back` seconds before the last step's end.
     fn exact_rest(&mut self, back: T) {
         let Some(&rest) = self.locator.rests.first() else {
@@ -242,6 +256,12 @@ impl<T: Scalar> Run<T> {
         let State { q, v, .. } = &self.now.state;
         self.dynamics.set_extra_needs(&self.switcher.status.needs);
         self.dynamics.tape(self.now.t, q, v);
+        self.rest_what_has_vanished();
+        self.ask_for_guards();
+    }
+
+    /// Adds to `rests` the other slips that are no larger than rounding of what makes them, at the state of the last tape.
+    fn rest_what_has_vanished(&mut self) {
         for f in 0..self.description().frictions.len() {
             if !self.turns(f)
                 || self.locator.fallen.contains(&Guard::Slip(f))
@@ -250,7 +270,7 @@ impl<T: Scalar> Run<T> {
                 continue;
             }
             let slip = self.dynamics.slip(f).map(|s| s.value());
-            if slip[0].hypot(slip[1]) <= NOTHING * self.dynamics.slip_size(f, v) {
+            if slip[0].hypot(slip[1]) <= NOTHING * self.dynamics.slip_size(f, &self.now.state.v) {
                 self.locator.fallen.push(Guard::Slip(f));
                 self.locator.rests.push(Rest {
                     friction: f,
@@ -260,7 +280,6 @@ impl<T: Scalar> Run<T> {
                 });
             }
         }
-        self.ask_for_guards();
     }
 
     /// After the first step of slips that begin: from here on they go along themselves.

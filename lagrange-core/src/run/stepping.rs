@@ -143,10 +143,13 @@ impl<T: Scalar> Run<T> {
         let mut closer = 0;
         let (mut corrections, mut shortened) = (0, 0);
         loop {
-            if !self.advances(h) {
-                return Err(self.step_too_small(h));
-            }
             self.write_polynomial(h, order);
+            if !self.advances(h) {
+                return match self.slips_rest_at_once() {
+                    true => Ok(Hit::Guards(0.0)),
+                    false => Err(self.step_too_small(h)),
+                };
+            }
             self.locator.polynomials.take_series(
                 &self.dynamics,
                 &self.now.mode,
