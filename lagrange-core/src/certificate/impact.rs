@@ -17,8 +17,8 @@ struct Rates {
 }
 
 impl<T: Scalar> Examination<'_, T> {
-    /// Checks one impact.
-    pub fn impact(&mut self, event: &Event<T>) {
+    /// Checks one impact. Where others follow at the same time, what is closed after it is not so before they have happened.
+    pub fn impact(&mut self, event: &Event<T>, others_follow: bool) {
         let (time, before, after) = (
             event.time.value(),
             numbers(&event.state),
@@ -63,7 +63,7 @@ impl<T: Scalar> Examination<'_, T> {
             .map(|c| {
                 let row = d.contacts[c].row;
                 equations.includes(Item::Contact(c))
-                    && (impulses[row] != 0.0 || event.after.contacts[c])
+                    && (impulses[row] != 0.0 || !others_follow && event.after.contacts[c])
             })
             .collect();
         for (c, contact) in d.contacts.iter().enumerate() {
@@ -98,9 +98,7 @@ impl<T: Scalar> Examination<'_, T> {
             }
         }
         for (i, constraint) in d.constraints.iter().enumerate() {
-            let touched = constraint
-                .while_contact
-                .is_none_or(|c| event.after.contacts[c]);
+            let touched = constraint.while_contact.is_none_or(|c| touches[c]);
             if equations.includes(Item::Constraint(i)) && touched {
                 let (rate, reach) = (
                     rates_after.rate[constraint.row],

@@ -552,7 +552,12 @@ impl<T: Scalar> Examination<'_, T> {
                         self.join(when, &found);
                     }
                     if event.kind == EventKind::Impact {
-                        self.impact(event);
+                        let later = record.events()[self.events..].iter();
+                        let mut others = later.take_while(|other| other.time == event.time);
+                        let follows = others.any(|other| {
+                            other.kind == EventKind::Impact && other.state != event.state
+                        });
+                        self.impact(event, follows);
                     }
                     self.expected = numbers(&event.state_after);
                 }
