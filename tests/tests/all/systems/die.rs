@@ -76,7 +76,7 @@ fn forces_of_a_small_body_are_exact_where_it_is_not_turned() {
 /// edge takes up 5/4 m ω h upwards and 3/4 m ω h against the motion.
 #[test]
 fn a_die_that_rolls_from_edge_to_edge_keeps_a_quarter_of_its_rate() {
-    for (yaw, mu) in [(0.0_f64, 0.7), (0.3, 0.61), (-2.0, 0.6), (1.1, 1.0)] {
+    for (yaw, mu) in [(0.0_f64, 0.7), (0.3, 0.61), (-2.0, 0.62), (1.1, 1.0)] {
         let scene = Die::new(0.0, mu);
         let (h, rate) = (scene.half, 20.0);
         let (sin, cos) = yaw.sin_cos();
@@ -118,7 +118,7 @@ fn a_die_that_rolls_from_edge_to_edge_keeps_a_quarter_of_its_rate() {
 /// Corners, edges and faces strike, slide, stick and rock, again and again, until one face lies on the table.
 #[test]
 fn a_thrown_die_comes_to_rest_on_a_face() {
-    let mut random = Random::new(7);
+    let mut random = Random::new(8);
     for (bounce, mu) in [
         (0.0, 0.3),
         (0.2, 0.9),
@@ -136,7 +136,7 @@ fn a_thrown_die_comes_to_rest_on_a_face() {
             (Method::DormandPrince853, 1e-9),
             (Method::Radau5, 1e-9),
         ] {
-            let asked = format!("{bounce} {mu} {method:?} {tolerance:e}");
+            let asked = format!("{bounce} {mu} {speed} {rates:?} {method:?} {tolerance:e}");
             let run = Simulation::new(&scene)
                 .method(method)
                 .tolerance(tolerance)
