@@ -89,7 +89,7 @@ pub struct Event<T> {
     pub impulses: Vec<T>,
     /// Whether the restitution was lowered so that the impact does not add energy.
     pub restitution_lowered: bool,
-    /// Whether rows that depend on each other leave impulses of this impact undetermined; those given are of least norm.
+    /// Whether rows that depend on each other leave impulses of this impact undetermined; those given are the least that contacts and friction allow.
     pub impulses_undetermined: bool,
     /// Whether more than one mode could continue the motion, or more than one impact satisfies the law.
     pub ambiguous: bool,

@@ -60,7 +60,7 @@ pub struct Impact<T> {
     pub sticks: Vec<bool>,
     /// Whether the restitution was lowered.
     pub lowered: bool,
-    /// Whether dependent rows leave some impulses undetermined; those given are of least norm.
+    /// Whether dependent rows leave some impulses undetermined; those given are the least that contacts and friction allow.
     pub undetermined: bool,
     /// Whether other impacts satisfy the law as well.
     pub ambiguous: bool,

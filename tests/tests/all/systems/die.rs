@@ -36,7 +36,7 @@ impl Die {
             gravity: 9.81,
             bounce,
             mu,
-            side: core::array::from_fn(|i| match i / 3 >> (2 - i % 3) & 1 {
+            side: core::array::from_fn(|i| match ((i / 3) >> (2 - i % 3)) & 1 {
                 0 => 1.0,
                 _ => -1.0,
             }),

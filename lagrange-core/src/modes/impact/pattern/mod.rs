@@ -64,7 +64,7 @@ pub(super) struct Pattern<T> {
     pub noise: Vec<f64>,
     /// The law of frictions with two components holds to so many times that.
     pub leeway: f64,
-    /// Whether impulses are not determined (they are then of least norm).
+    /// Whether impulses are not determined (they are then the least that contacts and friction allow).
     pub undetermined: bool,
     pub(super) unknowns: Vec<usize>,
     /// In the place of equations that say nothing new: how impulses are shared.
