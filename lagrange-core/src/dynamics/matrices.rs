@@ -211,7 +211,8 @@ impl<T: Scalar> Dynamics<T> {
         let shape = &interpreted.shape;
         let mut registers = interpreted.registers.clone();
         for &(friction, components, _) in &shape.slip_directions {
-            for (register, along) in components.into_iter().zip(self.slip_direction(friction)) {
+            let held = self.slip_directions.held(friction);
+            for (register, along) in components.into_iter().zip(held) {
                 registers[register.index()] = along;
             }
         }

@@ -41,6 +41,8 @@ type Series<T> = [[T; 2]; MAX_ORDER + 2];
 pub(super) struct SlipDirections<T> {
     /// Where the slip points, or begins to.
     now: Vec<[T; 2]>,
+    /// The same at the last value.
+    held: Vec<[T; 2]>,
     /// How it turns, where it begins.
     series: Vec<Series<T>>,
     /// D by rows,
@@ -60,6 +62,7 @@ impl<T: Scalar> SlipDirections<T> {
         let zero = [T::zero(); 2];
         Self {
             now: vec![zero; frictions],
+            held: vec![zero; frictions],
             series: vec![[zero; MAX_ORDER + 2]; frictions],
             response: Vec::with_capacity(frictions * frictions),
             strength: Vec::with_capacity(frictions),
@@ -79,6 +82,18 @@ impl<T: Scalar> SlipDirections<T> {
     #[inline]
     pub(super) fn of(&self, f: usize) -> [T; 2] {
         self.now[f]
+    }
+
+    /// The same, for a value.
+    #[inline]
+    pub(super) fn hold(&mut self, f: usize) -> [T; 2] {
+        self.held[f] = self.now[f];
+        self.held[f]
+    }
+
+    /// That at the last value.
+    pub(super) fn held(&self, f: usize) -> [T; 2] {
+        self.held[f]
     }
 
     /// Coefficient `k` of that of friction `f`.

@@ -106,7 +106,7 @@ impl<T: Scalar> Dynamics<T> {
         for &(friction, components, _) in &interpreted.shape.slip_directions {
             for (register, along) in components
                 .into_iter()
-                .zip(self.slip_directions.of(friction))
+                .zip(self.slip_directions.hold(friction))
             {
                 interpreted.registers[register.index()] = along;
             }

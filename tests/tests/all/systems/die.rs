@@ -118,7 +118,7 @@ fn a_die_that_rolls_from_edge_to_edge_keeps_a_quarter_of_its_rate() {
 /// Corners, edges and faces strike, slide, stick and rock, again and again, until one face lies on the table.
 #[test]
 fn a_thrown_die_comes_to_rest_on_a_face() {
-    let mut random = Random::new(8);
+    let mut random = Random::new(7);
     for (bounce, mu) in [
         (0.0, 0.3),
         (0.2, 0.9),
