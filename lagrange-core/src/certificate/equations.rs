@@ -552,7 +552,7 @@ impl Equations {
     }
 
     /// The gradient of a value times sizes, and its square.
-    fn along(&mut self, value: usize, level: Level, sizes: &[f64]) -> (f64, f64) {
+    pub fn along(&mut self, value: usize, level: Level, sizes: &[f64]) -> (f64, f64) {
         self.values.gradient_size(value, 0, &mut self.sizes_along);
         let (mut along, mut square) = (0.0, 0.0);
         for (gradient, size) in self.sizes_along.iter().zip(sizes) {

@@ -4,6 +4,7 @@ use super::equations::{Equations, Level, Situation};
 use super::{Findings, MARGIN, Subject};
 use crate::effects::Item;
 use crate::mode::{Direction, FrictionMode, Mode};
+use crate::trajectory::State;
 use core::cmp::Ordering;
 
 /// Beside its reach a slip in space has no direction below this multiple of the tolerance.
@@ -69,7 +70,11 @@ impl Equations {
             if self.includes(Item::Contact(c)) && mode.contacts[c] {
                 let (force, name) = (at.forces[self.d.contacts[c].row], self.d.contacts[c].name);
                 let size = self.force_along(contact.gap, Level::Position);
-                findings.book(Subject::NormalForces, -force - blur, size, at.time, name);
+                let mut beyond = -force - blur;
+                if beyond > 0.0 {
+                    beyond -= self.rounding_along(contact.gap, Level::Position, at);
+                }
+                findings.book(Subject::NormalForces, beyond, size, at.time, name);
             }
         }
         for (f, friction) in self.declaration.frictions.iter().enumerate() {
@@ -81,8 +86,25 @@ impl Equations {
             let (normal, normal_size) = self.normal(f, at.forces);
             let mu = self.values.value(friction.static_coefficient);
             let size = self.force_along_slips(friction.slip) + mu * normal_size;
-            let beyond = force - mu * normal - blur;
+            let mut beyond = force - mu * normal - blur;
+            if beyond > 0.0 {
+                let along = |&slip: &usize| self.rounding_along(slip, Level::Velocity, at);
+                beyond -= friction.slip.iter().map(along).fold(0.0, f64::max);
+            }
             findings.book(Subject::Cones, beyond, size, at.time, name);
+        }
+    }
+
+    /// What rounding makes of a force along a value where hardly any acts: the force that would take away a second's rounding error of velocities beside 1.
+    fn rounding_along(&mut self, value: usize, level: Level, at: Situation<'_>) -> f64 {
+        let balance = self.gradients.clone();
+        let state = State::new(at.q.to_vec(), at.v.to_vec());
+        let momenta = self.momentum_sizes(at.time, &state);
+        self.gradients = balance;
+        let (along, square) = self.along(value, level, &momenta);
+        match square > 0.0 {
+            true => self.exact * along / square,
+            false => 0.0,
         }
     }
 

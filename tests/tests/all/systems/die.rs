@@ -150,3 +150,45 @@ fn a_thrown_die_comes_to_rest_on_a_face() {
         }
     }
 }
+
+/// A ball rolls along a wall that it only touches: nothing presses it there, and forces are what rounding leaves.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    attitude(body: q),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2) + mass * radius^2 / 5 * (body.body_rate[0]^2 + body.body_rate[1]^2 + body.body_rate[2]^2),
+    contact(wall: x <= side),
+    friction(floor: slip = (der(x) - radius * body.space_rate[1], der(y) + radius * body.space_rate[0]),
+        normal = mass * 9.81, static = mu),
+)]
+struct Rolling {
+    mass: f64,
+    radius: f64,
+    side: f64,
+    mu: f64,
+}
+
+#[test]
+fn a_ball_that_rolls_along_a_wall_is_certified() {
+    let scene = Rolling {
+        mass: 0.2,
+        radius: 0.05,
+        side: 0.15,
+        mu: 0.3,
+    };
+    for (speed, spin) in [(0.28, 0.0), (0.3, 4.0), (-1.1, 7.0)] {
+        for tolerance in [1e-6, 1e-12] {
+            // Rolling: ω = (−v/r, 0, spin).
+            let rates = [0.0, -speed / scene.radius / 2.0, 0.0, spin / 2.0];
+            let start = State::new(
+                vec![0.15, 0.0, 1.0, 0.0, 0.0, 0.0],
+                [0.0, speed].into_iter().chain(rates).collect(),
+            );
+            let simulation = Simulation::new(&scene).tolerance(tolerance);
+            let run = simulation.run(start, 0.0..2.0).expect("a run");
+            agree("y", run.final_state().q(Rolling::Y), 2.0 * speed, 1e-9);
+            let certificate = run.verify(0).expect("recorded");
+            assert!(certificate.holds(), "{certificate}");
+        }
+    }
+}
