@@ -5,6 +5,10 @@
 //! ```
 //!
 //! Sliding friction acts through the force that presses: λ_slip = factor · λ_source, with factor = −μₖ ν d.
+//!
+//! The inertia of a unit quaternion is singular along itself. With the row a v̇ + γ = 0 that keeps its length, κ aᵀ (a v̇ + γ) is added to the balances of
+//! its coordinates: the solution stays, forces included, and M + κ aᵀ a is positive definite (augmented Lagrangian; Hestenes 1969, J. Optim. Theory Appl. 4,
+//! 303). κ = tr M / 12 makes that of a ball a multiple of 1.
 
 use super::masked::{ALWAYS, Masked};
 use crate::derive::{Equations, OutputId};
@@ -98,6 +102,9 @@ pub(super) fn balances(
             list[j].forces.insert(row, column);
         }
     }
+    for (row, first) in attitudes(equations, acting) {
+        augment(equations, &mut list, row, first, known);
+    }
     let slides = slides(equations, mode, acting, known, signs)?;
     for slide in &slides {
         for (j, a) in jacobian(equations, slide.row, known) {
@@ -127,6 +134,49 @@ pub(super) fn balances(
         }
     }
     Some(Balances { list, slides })
+}
+
+/// The acting rows that keep quaternions at unit length, with the first of the four coordinates.
+pub(super) fn attitudes(equations: &Equations, acting: &[usize]) -> Vec<(usize, usize)> {
+    let constraints = equations.system.constraints.iter().enumerate();
+    let rows = constraints.filter_map(|(row, constraint)| Some((row, constraint.attitude?)));
+    rows.filter(|(row, _)| acting.contains(row)).collect()
+}
+
+/// Adds κ aᵀ (a v̇ + γ) of this row to the balances of the quaternion.
+fn augment(
+    equations: &mut Equations,
+    list: &mut [Balance],
+    row: usize,
+    first: usize,
+    known: &[(Symbol, ExprId)],
+) {
+    let a = jacobian(equations, row, known);
+    let bias = whole(equations, equations.structure.rows[row].bias, known);
+    let pool = &mut equations.system.pool;
+    let (one, twelve) = (pool.integer(1), pool.integer(12));
+    let Some(twelfth) = pool.div(one, twelve) else {
+        return;
+    };
+    let mut trace = Masked::default();
+    for (j, balance) in list.iter().enumerate().skip(first).take(4) {
+        if let Some(inertia) = balance.mass.get(&j) {
+            trace.add_scaled(pool, one, inertia);
+        }
+    }
+    let trace = trace.simplified(pool);
+    for &(i, left) in &a {
+        let part = pool.mul(twelfth, left);
+        for &(j, right) in &a {
+            let square = pool.mul(part, right);
+            let entry = list[i].mass.get_or_default(j);
+            entry.add_scaled(pool, square, &trace);
+            *entry = entry.simplified(pool);
+        }
+        let load = pool.mul(part, bias);
+        let load = pool.neg(load);
+        list[i].load.add_scaled(pool, load, &trace);
+    }
 }
 
 /// The row of the Jacobian, without zeros.

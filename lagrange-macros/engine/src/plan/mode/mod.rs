@@ -228,7 +228,7 @@ fn specialise(
     let mut whole = match form {
         Form::Elements => None,
         Form::Balance => Some(whole::whole_balance(
-            equations, &balances, &reduced, unknowns,
+            equations, &balances, &reduced, &acting, unknowns,
         )?),
     };
     let mut sheet = Sheet::default();

@@ -1,6 +1,6 @@
 //! The equations of motion of a mode with what they share kept whole: K w − b as one sum for each coordinate.
 
-use super::balance::Balances;
+use super::balance::{Balances, attitudes};
 use super::masked::{ALWAYS, Masked};
 use super::reduce::Reduced;
 use crate::derive::Equations;
@@ -17,16 +17,18 @@ pub(super) struct Whole {
 }
 
 /// The whole equations of a mode; none where rows have been eliminated, where something of it besides loads can be left out, or where
-/// there is no such form.
+/// there is no such form, as for unit quaternions.
 pub(super) fn whole_balance(
     equations: &mut Equations,
     balances: &Balances,
     reduced: &Reduced,
+    acting: &[usize],
     unknowns: &[Symbol],
 ) -> Option<Whole> {
     let n = equations.system.coordinates.len();
     let pressed = balances.slides.iter().all(|slide| slide.source.is_some());
-    if reduced.free.len() < n || !reduced.solved.is_empty() || !pressed {
+    let augmented = !attitudes(equations, acting).is_empty();
+    if reduced.free.len() < n || !reduced.solved.is_empty() || !pressed || augmented {
         return None;
     }
     let found = equations.balance.as_ref()?;
