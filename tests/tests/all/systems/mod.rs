@@ -56,6 +56,7 @@ mod pressed;
 mod pulses;
 mod quaternion;
 mod region;
+mod rigid_bodies;
 mod rocking_block;
 mod shared_loads;
 mod skate;
