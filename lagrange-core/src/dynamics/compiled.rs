@@ -2,7 +2,7 @@
 //! and the interpreted equations for what has been asked for.
 
 use super::constants::Constants;
-use super::emitted::Emitted;
+use super::emitted::{Emitted, is_finite};
 use super::interpreted::{Asked, Interpreted, Part, Planned};
 use super::output_mask::{self, OutputMask};
 use crate::arithmetic::Scalar;
@@ -173,11 +173,15 @@ impl<T: Scalar> Compiled<T> {
         kept.is_some_and(|i| self.solver.holds_aside(i))
     }
 
-    /// Accelerations by the functions of the mode. False if a pivot is not safe, or there are none.
+    /// Accelerations by the functions of the mode.
     #[inline]
-    pub(super) fn accelerations(&self, state: Arguments<T>, out: &mut [T]) -> bool {
-        let emitted = self.emitted(&self.motion_needs);
-        emitted.is_some_and(|(emitted, held)| emitted.accelerations(&held, state, out))
+    pub(super) fn accelerations(&self, state: Arguments<T>, out: &mut [T]) -> Outcome {
+        let (_, q, v) = state;
+        let Some(emitted) = self.functions().filter(|emitted| emitted.holds_at(q, v)) else {
+            return Outcome::NotGiven;
+        };
+        let held = self.selection(&self.motion_needs);
+        Outcome::of(emitted.accelerations(&held, state, out), out)
     }
 
     /// The same with the forces of all rows and what `needs` ask for beside.
@@ -189,31 +193,34 @@ impl<T: Scalar> Compiled<T> {
         state: Arguments<T>,
         accelerations: &mut [T],
         forces: &mut [T],
-    ) -> bool {
+    ) -> Outcome {
+        let (_, q, v) = state;
+        if !self
+            .functions()
+            .is_some_and(|emitted| emitted.holds_at(q, v))
+        {
+            return Outcome::NotGiven;
+        }
         let held = Selection {
             needs: needs.unwrap_or(&self.motion_needs),
             branches: &self.mode.branches,
         };
         let Some(emitted) = &mut self.emitted else {
-            return false;
+            return Outcome::NotGiven;
         };
         let safe = emitted.value(&held, state, accelerations);
         forces.copy_from_slice(emitted.forces(d));
-        safe
+        Outcome::of(safe, accelerations)
     }
 
-    /// The functions of the mode, with what they are told for these needs.
+    /// What the functions of the mode are told for these needs.
     #[inline]
-    pub(super) fn emitted<'a>(
-        &'a self,
-        needs: &'a OutputMask,
-    ) -> Option<(&'a Emitted<T>, Selection<'a>)> {
+    fn selection<'a>(&'a self, needs: &'a OutputMask) -> Selection<'a> {
         let branches = &self.mode.branches;
-        let held = Selection { needs, branches };
-        self.emitted.as_ref().map(|emitted| (emitted, held))
+        Selection { needs, branches }
     }
 
-    /// The same, to be expanded.
+    /// The functions of the mode, to be expanded, with what they are told for these needs.
     #[inline]
     pub(super) fn emitted_mut<'a>(
         &'a mut self,
@@ -326,5 +333,27 @@ impl<T> Loaded<T> {
         let place = (self.in_use + 1) % MOST_INTERPRETED;
         self.list[place] = one;
         place
+    }
+}
+
+/// What an evaluation by the functions of a mode has come to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Outcome {
+    /// Finite accelerations.
+    Given,
+    /// Nothing: there are no functions, or none that hold at this state.
+    NotGiven,
+    /// A pivot that is not safe.
+    Unsafe,
+}
+
+impl Outcome {
+    #[inline]
+    fn of<T: Scalar>(safe: bool, accelerations: &[T]) -> Self {
+        match safe {
+            false => Self::Unsafe,
+            true if is_finite(accelerations) => Self::Given,
+            true => Self::NotGiven,
+        }
     }
 }

@@ -240,3 +240,9 @@ impl<T: Scalar> Emitted<T> {
         self.row(2 * d.coordinates.len() + d.rows.len())
     }
 }
+
+/// Whether all numbers are finite.
+#[inline]
+pub(super) fn is_finite<T: Scalar>(numbers: &[T]) -> bool {
+    numbers.iter().all(|x| x.value().is_finite())
+}

@@ -9,7 +9,7 @@
 //! for a coordinate projection method applied to mechanical systems with algebraic constraints, SIAM J. Numer. Anal. 30.
 
 use super::emitted::Emitted;
-use super::values::is_finite;
+use super::emitted::is_finite;
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::{Scalar, epsilon};
 use crate::linear::{Columns, Inertia};

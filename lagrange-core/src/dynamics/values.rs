@@ -1,9 +1,11 @@
 //! Accelerations and forces at one state.
 
-use super::compiled::Compiled;
+use super::compiled::{Compiled, Outcome};
+use super::emitted::is_finite;
 use super::interpreted::{Extent, FORCES, Interpreted, MOTION, Part, REPORT, SYSTEM};
-use super::{Dynamics, EvaluationError};
+use super::{Dynamics, Equations, EvaluationError};
 use crate::arithmetic::{Scalar, epsilon};
+use crate::equations::Arguments;
 use crate::linear::{Columns, Inertia, SolveError};
 use crate::system::ValueRef;
 
@@ -19,7 +21,7 @@ impl<T: Scalar> Dynamics<T> {
         let n = q.len();
         let mut inputs = core::mem::take(&mut self.inputs);
         let (accelerations, forces) = inputs[1 + 2 * n..].split_at_mut(n);
-        let outcome = self.evaluate(t, q, v, accelerations, Some(forces));
+        let outcome = self.evaluate(t, q, v, accelerations, forces);
         self.inputs = inputs;
         outcome?;
         self.take_state(t, q, v);
@@ -36,8 +38,7 @@ impl<T: Scalar> Dynamics<T> {
         Ok(())
     }
 
-    /// Accelerations, and forces of all rows if asked for, at (t, q, v): by the functions of the mode where they hold, else by the
-    /// interpreter.
+    /// Accelerations and forces of all rows at (t, q, v): by the functions of the mode where they hold, else by the interpreter.
     #[inline]
     fn evaluate(
         &mut self,
@@ -45,28 +46,35 @@ impl<T: Scalar> Dynamics<T> {
         q: &[T],
         v: &[T],
         accelerations: &mut [T],
-        mut forces: Option<&mut [T]>,
+        forces: &mut [T],
     ) -> Result<(), EvaluationError> {
-        if self.choose(q, v) {
-            let held = match self.guards_alone {
-                true => Some(&self.value_held),
-                false => None,
-            };
-            let state = (t, q, v);
-            let compiled = &mut self.modes[self.current];
-            let safe = match forces.as_deref_mut() {
-                None => compiled.accelerations(state, accelerations),
-                Some(forces) => {
-                    compiled.value(self.description, held, state, accelerations, forces)
-                }
-            };
-            if safe && is_finite(accelerations) {
-                return Ok(());
+        let compiled = &mut self.modes[self.current];
+        let outcome = match self.equations {
+            Equations::Interpreted => Outcome::NotGiven,
+            Equations::Emitted => {
+                let held = self.guards_alone.then_some(&self.value_held);
+                compiled.value(self.description, held, (t, q, v), accelerations, forces)
             }
-            self.by_functions = false;
-            if !safe {
-                self.refuse_functions();
-            }
+        };
+        self.by_functions = outcome == Outcome::Given;
+        match outcome {
+            Outcome::Given => Ok(()),
+            _ => self.interpret(outcome, (t, q, v), accelerations, Some(forces)),
+        }
+    }
+
+    /// Accelerations, and forces of all rows if asked for, by the interpreter, where the functions of the mode have come to nothing.
+    #[cold]
+    #[inline(never)]
+    fn interpret(
+        &mut self,
+        outcome: Outcome,
+        (t, q, v): Arguments<T>,
+        accelerations: &mut [T],
+        forces: Option<&mut [T]>,
+    ) -> Result<(), EvaluationError> {
+        if outcome == Outcome::Unsafe {
+            self.refuse_functions();
         }
         let extent = match forces {
             Some(_) => Extent::Everything,
@@ -129,7 +137,16 @@ impl<T: Scalar> Dynamics<T> {
         accelerations: &mut [T],
     ) -> Result<(), EvaluationError> {
         self.work.values += 1;
-        self.evaluate(t, q, v, accelerations, None)
+        let compiled = &self.modes[self.current];
+        let outcome = match self.equations {
+            Equations::Interpreted => Outcome::NotGiven,
+            Equations::Emitted => compiled.accelerations((t, q, v), accelerations),
+        };
+        self.by_functions = outcome == Outcome::Given;
+        match outcome {
+            Outcome::Given => Ok(()),
+            _ => self.interpret(outcome, (t, q, v), accelerations, None),
+        }
     }
 
     /// Leaves the equations of the mode to the interpreter from now on.
@@ -354,12 +371,6 @@ impl<T: Scalar> Dynamics<T> {
         }
         (self.inputs, self.report_nodes) = (inputs, nodes);
     }
-}
-
-/// Whether all numbers are finite: the sum of zeros is zero unless one of the factors is not.
-#[inline]
-pub(super) fn is_finite<T: Scalar>(numbers: &[T]) -> bool {
-    numbers.iter().fold(0.0, |sum, x| sum + 0.0 * x.value()) == 0.0
 }
 
 /// Factors the linear system of a mode.
