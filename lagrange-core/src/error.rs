@@ -328,8 +328,9 @@ impl fmt::Display for Error {
                 tolerance,
             } => write!(
                 f,
-                "the start is below the surface of `{item}`: gap {} (accepted: {:.1e}); begin above it, or, for a body that \
-                 hangs under a surface, let the contact's region (`where …`) leave that place out",
+                "the start is below the surface of `{item}`: gap {} (accepted: {:.1e}); begin above it, or have the \
+                 nearest positions taken (`project_start(true)`, `--project`), or, for a body that hangs under a surface, let the \
+                 contact's region (`where …`) leave that place out",
                 short(*gap),
                 -tolerance
             ),

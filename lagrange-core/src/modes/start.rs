@@ -30,7 +30,9 @@ pub fn begin<T: Scalar>(
     domain::check_parameters(dynamics, t.value())?;
     status.look(dynamics, t, state, tolerance);
     domain::check(dynamics, t.value(), &mut status.form)?;
-    if !project {
+    if project {
+        leave_surfaces(dynamics, t, state, tolerance, status)?;
+    } else {
         status.refuse_violations(dynamics.description(), tolerance)?;
     }
     dynamics.set_mode(&status.mode);
@@ -49,6 +51,36 @@ pub fn begin<T: Scalar>(
         dynamics.set_mode(&status.mode);
     }
     Ok(())
+}
+
+/// Moves positions that are below surfaces onto them. Velocities stay: a body may leave a surface, or arrive at it, where it begins.
+fn leave_surfaces<T: Scalar>(
+    dynamics: &mut Dynamics<T>,
+    t: T,
+    state: &mut State<T>,
+    tolerance: f64,
+    status: &mut ConstraintStatus,
+) -> Result<(), Error> {
+    let mut closed = vec![false; status.mode.contacts.len()];
+    // Whoever leaves one surface may end below another.
+    for _ in 0..closed.len() {
+        if status.penetrated(tolerance).next().is_none() {
+            return Ok(());
+        }
+        for contact in status.penetrated(tolerance) {
+            closed[contact] = true;
+        }
+        let mut mode = status.mode.clone();
+        let contacts = mode.contacts.iter_mut().zip(&closed);
+        contacts.for_each(|(contact, closed)| *contact |= closed);
+        dynamics.set_mode(&mode);
+        let velocities = state.v.clone();
+        let outcome = dynamics.project(t, &mut state.q, &mut state.v, 0.0);
+        outcome.map_err(|e| Error::from_evaluation(e, t.value(), &mode, dynamics.description()))?;
+        state.v = velocities;
+        status.look(dynamics, t, state, tolerance);
+    }
+    status.refuse_penetration(dynamics.description(), tolerance)
 }
 
 /// A residual may be small because its row is, close to a position where constraints lose rank: to take it away there is to make another

@@ -89,16 +89,8 @@ impl ConstraintStatus {
     /// # Errors
     /// [`Error::Penetrates`], [`Error::Start`]: the first that does not.
     pub fn refuse_violations(&self, d: &'static Description, tolerance: f64) -> Result<(), Error> {
+        self.refuse_penetration(d, tolerance)?;
         let near = slack(tolerance);
-        for &(c, gap, size) in &self.gaps {
-            if -gap > near * size {
-                return Err(Error::Penetrates {
-                    item: d.contacts[c].name,
-                    gap,
-                    tolerance: near * size,
-                });
-            }
-        }
         for &(row, level, residual, size) in &self.residuals {
             if residual.abs() > near * size {
                 return Err(Error::Start {
@@ -110,6 +102,29 @@ impl ConstraintStatus {
             }
         }
         Ok(())
+    }
+
+    /// Whether no contact is penetrated.
+    ///
+    /// # Errors
+    /// [`Error::Penetrates`]: the first that is.
+    pub fn refuse_penetration(&self, d: &'static Description, tolerance: f64) -> Result<(), Error> {
+        let near = slack(tolerance);
+        match self.gaps.iter().find(|(_, gap, size)| -gap > near * size) {
+            None => Ok(()),
+            Some(&(c, gap, size)) => Err(Error::Penetrates {
+                item: d.contacts[c].name,
+                gap,
+                tolerance: near * size,
+            }),
+        }
+    }
+
+    /// The contacts that are penetrated.
+    pub fn penetrated(&self, tolerance: f64) -> impl Iterator<Item = usize> {
+        let near = slack(tolerance);
+        let gaps = self.gaps.iter();
+        gaps.filter_map(move |&(c, gap, size)| (-gap > near * size).then_some(c))
     }
 
     fn look_at_contact<T: Scalar>(&mut self, c: usize, view: &View<T>) {

@@ -219,6 +219,12 @@ impl Cursor {
         }
     }
 
+    /// Whether a number was stepped over last.
+    pub fn literal_behind(&self) -> bool {
+        let behind = self.at.checked_sub(1).and_then(|i| self.tokens.get(i));
+        matches!(behind, Some(TokenTree::Literal(_)))
+    }
+
     /// Steps over this very word if it is here.
     pub fn take_word(&mut self, word: &str) -> Option<Name> {
         let name = self.word().filter(|name| name.text == word)?;

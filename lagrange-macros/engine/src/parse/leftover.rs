@@ -69,6 +69,10 @@ fn missing_operator(cursor: &Cursor, sink: &mut Diagnostics) {
         Some(word) if FUNCTIONS.contains(&word.text.as_str()) => {
             format!("arguments stand in parentheses: `{}(…)`", word.text)
         }
+        None if cursor.literal_behind() && cursor.word().is_some() => {
+            let what = "a product is written with `*`; what has a unit is a parameter, and an angle a plain number";
+            what.to_string()
+        }
         _ => "a product is written with `*`".to_string(),
     };
     sink.report(

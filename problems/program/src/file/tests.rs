@@ -228,11 +228,11 @@ fn names_that_look_like_something_else_are_told_as_that() {
 
 #[test]
 fn values_are_numbers_written_as_expressions() {
-    let text = "parameters(a = 2*pi, b[2] = 1/4, c[2] = [1, -2], type = sqrt(4)), coordinates(x),\n\
-                kinetic = a * b[0] * c[0] * type * der(x)^2, until = 3/2";
+    let text = "parameters(a = 2*pi, b[2] = 1/4, c[2] = [1, -2], d = [3, 4], type = sqrt(4)), coordinates(x),\n\
+                kinetic = a * b[0] * c[0] * d[1] * type * der(x)^2, until = 3/2";
     let scene = scene("a.lagrange", text).unwrap_or_else(|refused| panic!("{refused}"));
     let tau = 2.0 * std::f64::consts::PI;
-    assert_eq!(scene.defaults(), [tau, 0.25, 0.25, 1.0, -2.0, 2.0]);
+    assert_eq!(scene.defaults(), [tau, 0.25, 0.25, 1.0, -2.0, 3.0, 4.0, 2.0]);
     assert_eq!(scene.until(), 1.5);
 }
 

@@ -68,6 +68,7 @@ mod stretched;
 mod striking_rod;
 mod turntable;
 mod wire;
+mod woodpecker;
 
 use lagrange_core::prelude::*;
 

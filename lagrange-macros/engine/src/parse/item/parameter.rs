@@ -7,7 +7,7 @@ use super::super::number::number;
 use super::super::structure;
 use super::quantity::every;
 use super::{once, text};
-use crate::ast::{Expr, Field, Name, Unit};
+use crate::ast::{Expr, ExprKind, Field, Name, Unit};
 use crate::diagnostics::{Code, Diagnostics};
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use syn::Attribute;
@@ -51,7 +51,8 @@ impl Parameters {
     }
 }
 
-/// `mass = 1`, `mass: "kg" = 1`, `mass: "kg" positive = 1`, `length[3]: "m" = [1, 2, 3]`, with attributes of a field before it.
+/// `mass = 1`, `mass: "kg" = 1`, `mass: "kg" positive = 1`, `length[3]: "m" = 1`, `length: "m" = [1, 2, 3]`, with attributes of a field
+/// before it.
 fn parameter(part: &mut Cursor, sink: &mut Diagnostics) -> Option<(Field, Expr)> {
     let attributes = attributes(part, sink)?;
     let name = part.name("the name of a parameter", sink)?;
@@ -88,7 +89,11 @@ fn parameter(part: &mut Cursor, sink: &mut Diagnostics) -> Option<(Field, Expr)>
         return None;
     }
     part.require("=", sink)?;
-    Some((field, whole(part, sink)?))
+    let value = whole(part, sink)?;
+    if let ExprKind::List(elements) = &value.kind {
+        field.length.get_or_insert(elements.len());
+    }
+    Some((field, value))
 }
 
 /// The number N of `[N]`.
