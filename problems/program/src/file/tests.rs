@@ -232,7 +232,10 @@ fn values_are_numbers_written_as_expressions() {
                 kinetic = a * b[0] * c[0] * d[1] * type * der(x)^2, until = 3/2";
     let scene = scene("a.lagrange", text).unwrap_or_else(|refused| panic!("{refused}"));
     let tau = 2.0 * std::f64::consts::PI;
-    assert_eq!(scene.defaults(), [tau, 0.25, 0.25, 1.0, -2.0, 3.0, 4.0, 2.0]);
+    assert_eq!(
+        scene.defaults(),
+        [tau, 0.25, 0.25, 1.0, -2.0, 3.0, 4.0, 2.0]
+    );
     assert_eq!(scene.until(), 1.5);
 }
 

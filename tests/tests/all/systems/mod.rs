@@ -6,6 +6,7 @@ mod backlash;
 mod ball;
 mod belt;
 mod bending_guards;
+mod bicycle;
 mod block;
 mod blows;
 mod borders;

@@ -1,4 +1,4 @@
-//! Squares of velocities in the form of a kinetic energy.
+//! Squares and products of velocities in the form of a kinetic energy.
 
 use super::ByCoordinate;
 use super::nested::{Terms, terms};
@@ -6,12 +6,18 @@ use crate::derive::forms::Variables;
 use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Node, Pool, Rational, Symbol};
 
-/// (c, w) of all squares c w² that an energy is the sum of.
-pub(super) fn squares_in(
+/// c w u: what an energy is a sum of. A square has u = w.
+pub(super) struct Term {
+    pub factor: ExprId,
+    pub velocities: [ExprId; 2],
+}
+
+/// The squares and products of two velocities that an energy is the sum of.
+pub(super) fn terms_of_energy(
     pool: &mut Pool,
     x: &Variables,
     kinetic: ExprId,
-) -> Option<Vec<(ExprId, ExprId)>> {
+) -> Option<Vec<Term>> {
     let mut found = Vec::new();
     let mut open = vec![(x.one, kinetic)];
     while let Some((c, e)) = open.pop() {
@@ -25,22 +31,47 @@ pub(super) fn squares_in(
                 let (varying, fixed): (Vec<_>, Vec<_>) =
                     (factors.into_iter()).partition(|&(base, _)| x.changes(pool, base));
                 let fixed = pool.monomial(Rational::ONE, &fixed);
-                let c = pool.mul(c, fixed);
-                let half = |&(base, power): &(ExprId, Rational)| {
-                    let half = power.checked_mul(Rational::HALF)?;
-                    half.is_integer().then_some((base, half))
-                };
-                let root: Option<Vec<_>> = varying.iter().map(half).collect();
-                match (root, &varying[..]) {
-                    (Some(root), _) => found.push((c, pool.monomial(Rational::ONE, &root))),
-                    (None, &[(sum, power)]) if power.is_one() => open.push((c, sum)),
-                    _ => return None,
+                let factor = pool.mul(c, fixed);
+                if let [(sum, power)] = varying[..]
+                    && power.is_one()
+                {
+                    open.push((factor, sum));
+                    continue;
                 }
+                let velocities = velocities(pool, x, varying)?;
+                found.push(Term { factor, velocities });
             }
             _ => return None,
         }
     }
     Some(found)
+}
+
+/// The two velocities whose product this is, the same twice in a square.
+fn velocities(
+    pool: &mut Pool,
+    x: &Variables,
+    factors: Vec<(ExprId, Rational)>,
+) -> Option<[ExprId; 2]> {
+    let half = |&(base, power): &(ExprId, Rational)| {
+        let half = power.checked_mul(Rational::HALF)?;
+        half.is_integer().then_some((base, half))
+    };
+    let root: Option<Vec<_>> = factors.iter().map(half).collect();
+    if let Some(root) = root {
+        let w = pool.monomial(Rational::ONE, &root);
+        return Some([w, w]);
+    }
+    let moves = |&(base, _): &(ExprId, Rational)| pool.depends_on_any(base, &x.velocities);
+    let (moving, mut places): (Vec<_>, Vec<_>) = factors.into_iter().partition(moves);
+    let [one, other] = match moving[..] {
+        [(one, power)] if power == Rational::integer(2) => [one, one],
+        [(one, first), (other, second)] if first.is_one() && second.is_one() => [one, other],
+        _ => return None,
+    };
+    // What depends on positions goes with one of them.
+    places.push((one, Rational::ONE));
+    Some([pool.monomial(Rational::ONE, &places), other])
 }
 
 /// (j, ∂w/∂vⱼ) of a velocity that is linear and homogeneous in v by its form.

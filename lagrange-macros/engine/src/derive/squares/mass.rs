@@ -1,4 +1,4 @@
-//! Mᵢⱼ = Σₛ 2cₛ Jₛᵢ Jₛⱼ, factors that are fixed or shared kept together.
+//! Mᵢⱼ = Σₛ cₛ Jₛᵢ Uₛⱼ, factors that are fixed or shared kept together.
 
 use super::Squares;
 use super::nested::{Terms, nested, terms};
@@ -86,7 +86,7 @@ impl Squares {
         (products, uses)
     }
 
-    /// Σ 2cₛ of all sets of squares in which two directions meet.
+    /// Σ cₛ of all sets of squares in which two directions meet.
     fn inertias(&self, pool: &mut Pool) -> SortedMap<Set, ExprId> {
         let mut lists: SortedMap<Set, Terms> = SortedMap::new();
         for i in 0..self.size {
@@ -106,10 +106,10 @@ impl Squares {
         sets.into_iter().zip(nested(pool, &lists)).collect()
     }
 
-    /// Directions of i and j, and the squares that have both.
+    /// Directions of i and, of the partners, of j, and the squares that have both.
     fn pairs(&self, i: usize, j: usize) -> impl Iterator<Item = (ExprId, ExprId, Set)> {
         self.directions[i].iter().flat_map(move |(own, set)| {
-            let others = self.directions[j].iter();
+            let others = self.partners[j].iter();
             others.map(move |(other, others)| (*own, *other, common(set, others)))
         })
     }

@@ -1,9 +1,12 @@
-//! T = Σ cₛ wₛ², the velocities wₛ = Σ Jₛᵢ vᵢ left whole: mass matrix, forcing, momenta and T of large systems.
+//! T = ½ Σ cₛ wₛ uₛ, the velocities wₛ = Σ Jₛᵢ vᵢ left whole: mass matrix, forcing, momenta and T of large systems.
 //!
 //! ```text
-//! Mᵢⱼ = Σₛ 2cₛ Jₛᵢ Jₛⱼ        pᵢ = Σₛ 2cₛ Jₛᵢ wₛ
-//! fᵢ = −Σₛ 2cₛ (Jₛᵢ aₛ + wₛ (J̇ₛᵢ − ∂wₛ/∂qᵢ)),        aₛ = ẇₛ at v̇ = 0
+//! Mᵢⱼ = Σₛ cₛ Jₛᵢ Uₛⱼ        pᵢ = Σₛ cₛ Jₛᵢ uₛ
+//! fᵢ = −Σₛ cₛ (Jₛᵢ u̇ₛ + uₛ (J̇ₛᵢ − ∂wₛ/∂qᵢ)),        u̇ₛ at v̇ = 0
 //! ```
+//!
+//! A square has uₛ = wₛ. The product of two velocities, as that of two components of an angular velocity and a product of inertia,
+//! stands twice, each time with the other one of them as uₛ = Σ Uₛⱼ vⱼ.
 //!
 //! The first term of f is d'Alembert's: inertial forces projected on the directions of motion (Kane & Levinson 1985,
 //! section 4.11); the second vanishes where wₛ is the rate of a function of the positions. A chain's velocities are
@@ -14,32 +17,43 @@ mod find;
 mod mass;
 mod nested;
 mod set;
+mod turning;
 
 use super::forms::Variables;
 use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Pool, Rational, Symbol};
-use find::{slopes, slopes_of_whole, squares_in};
+use find::{Term, slopes, slopes_of_whole, terms_of_energy};
 use nested::{nested, terms};
 use set::{Set, members};
+use turning::{Turning, recognize};
 
 /// (i, expression)
 type ByCoordinate = Vec<(usize, ExprId)>;
 
-/// c w²
+/// ½ c w u
 struct Square {
-    /// 2c
+    /// c
     inertia: ExprId,
+    /// Whose velocity u is: the square's own, but in a product.
+    partner: usize,
     /// (j, ∂w/∂vⱼ), without zeros, ascending.
     slopes: ByCoordinate,
     /// w, if velocities in it are kept whole.
     whole: Option<ExprId>,
 }
 
-/// A kinetic energy as a sum of squares.
+/// Per coordinate: a direction, and the squares that have it.
+type Directions = Vec<Vec<(ExprId, Set)>>;
+
+/// A kinetic energy as a sum of squares and products.
 pub(super) struct Squares {
     squares: Vec<Square>,
     /// Per coordinate: (Jₛᵢ, the squares that have it).
-    directions: Vec<Vec<(ExprId, Set)>>,
+    directions: Directions,
+    /// Per coordinate: (Uₛⱼ, the squares that have it).
+    partners: Directions,
+    /// How the direction of each velocity turns.
+    turnings: Vec<Turning>,
     /// wₛ, each made of a shorter one where it contains it.
     speeds: Vec<ExprId>,
     /// Number of coordinates.
@@ -57,40 +71,39 @@ impl Squares {
             .collect();
         let mut squares = Vec::new();
         let mut lists = Vec::new();
-        for (c, w) in squares_in(pool, x, kinetic)? {
-            let inertia = pool.scale(c, Rational::integer(2));
-            squares.push(match slopes(pool, x, &velocities, w) {
-                Some(slopes) => Square {
-                    inertia,
-                    slopes,
-                    whole: None,
-                },
-                None => Square {
-                    inertia,
-                    slopes: slopes_of_whole(pool, x, w)?,
-                    whole: Some(w),
-                },
-            });
-            lists.push(terms(pool, w));
-        }
-        let speeds = nested(pool, &lists);
-        let mut directions = vec![Vec::new(); x.len()];
-        for (s, square) in squares.iter().enumerate() {
-            for &(i, slope) in &square.slopes {
-                let known: &mut Vec<(ExprId, Set)> = &mut directions[i];
-                let at = match known.iter().position(|&(other, _)| other == slope) {
-                    Some(at) => at,
-                    None => {
-                        known.push((slope, set::empty(squares.len())));
-                        known.len() - 1
-                    }
+        for Term {
+            factor,
+            velocities: [w, u],
+        } in terms_of_energy(pool, x, kinetic)?
+        {
+            let place = squares.len();
+            let entries = match w == u {
+                true => vec![(w, pool.scale(factor, Rational::integer(2)), place)],
+                false => vec![(w, factor, place + 1), (u, factor, place)],
+            };
+            for (w, inertia, partner) in entries {
+                let (slopes, whole) = match slopes(pool, x, &velocities, w) {
+                    Some(slopes) => (slopes, None),
+                    None => (slopes_of_whole(pool, x, w)?, Some(w)),
                 };
-                set::insert(&mut known[at].1, s);
+                squares.push(Square {
+                    inertia,
+                    partner,
+                    slopes,
+                    whole,
+                });
+                lists.push(terms(pool, w));
             }
         }
+        let turnings = recognize(pool, x, &mut squares);
+        let speeds = nested(pool, &lists);
+        let directions = directions_of(x.len(), &squares, |s| s);
+        let partners = directions_of(x.len(), &squares, |s| squares[s].partner);
         Some(Squares {
             squares,
             directions,
+            partners,
+            turnings,
             speeds,
             size: x.len(),
         })
@@ -100,18 +113,17 @@ impl Squares {
     pub fn energy(&self, pool: &mut Pool) -> ExprId {
         let mut terms = Vec::with_capacity(self.squares.len());
         for (square, &w) in self.squares.iter().zip(&self.speeds) {
-            let factors = [
-                (square.inertia, Rational::ONE),
-                (pool.group_sum(w), Rational::integer(2)),
-            ];
-            terms.push(pool.monomial(Rational::HALF, &factors));
+            let [w, u] = [w, self.speeds[square.partner]].map(|speed| pool.group_sum(speed));
+            let term = pool.product(&[square.inertia, w, u]);
+            terms.push(pool.scale(term, Rational::HALF));
         }
         pool.sum(&terms)
     }
 
     /// (i, ∂T/∂vᵢ)
     pub fn momenta(&self, pool: &mut Pool) -> ByCoordinate {
-        let projected = self.projected(pool, &self.speeds);
+        let none = vec![pool.integer(0); self.squares.len()];
+        let projected = self.projected(pool, &self.speeds, &none);
         let momenta: Vec<_> = projected
             .into_iter()
             .map(|p| pool.factor(p))
@@ -134,7 +146,7 @@ impl Squares {
         inertial.into_iter().map(|e| pool.neg(e)).collect()
     }
 
-    /// −Σₛ 2cₛ (Jₛᵢ ẇₛ + wₛ (J̇ₛᵢ − ∂wₛ/∂qᵢ)), at v̇ = 0 where no accelerations are given.
+    /// −Σₛ cₛ (Jₛᵢ u̇ₛ + uₛ (J̇ₛᵢ − ∂wₛ/∂qᵢ)), at v̇ = 0 where no accelerations are given.
     fn inertial(
         &self,
         pool: &mut Pool,
@@ -143,12 +155,26 @@ impl Squares {
     ) -> Vec<ExprId> {
         let mut lists = Vec::with_capacity(self.squares.len());
         let mut twists: Vec<Vec<ExprId>> = vec![Vec::new(); self.size];
+        let mut turned: Vec<Vec<ExprId>> = vec![Vec::new(); self.squares.len()];
         let mut known: SortedMap<(usize, ExprId), (ExprId, ByCoordinate)> = SortedMap::new();
-        for (square, &w) in self.squares.iter().zip(&self.speeds) {
+        for (square, &turning) in self.squares.iter().zip(&self.turnings) {
             let mut twist: SortedMap<usize, Vec<ExprId>> = SortedMap::new();
             let rate = if let Some(whole) = square.whole {
-                for (i, part) in twist_of_whole(pool, x, whole, &square.slopes) {
-                    twist.get_or_default(i).push(part);
+                match turning {
+                    Turning::Integrable => {}
+                    Turning::With([r, t]) => {
+                        let speeds = [square.partner, r, t].map(|s| self.speeds[s]);
+                        let [u, first, second] = speeds.map(|speed| pool.group_sum(speed));
+                        let force = pool.mul(square.inertia, u);
+                        turned[r].push(pool.mul(force, second));
+                        let back = pool.mul(force, first);
+                        turned[t].push(pool.neg(back));
+                    }
+                    Turning::Unknown => {
+                        for (i, part) in twist_of_whole(pool, x, whole, &square.slopes) {
+                            twist.get_or_default(i).push(part);
+                        }
+                    }
                 }
                 x.rate(pool, whole)
             } else {
@@ -174,12 +200,14 @@ impl Squares {
             for (i, parts) in twist {
                 let part = pool.sum(&parts);
                 let part = pool.simplify(part);
-                let w = pool.group_sum(w);
-                twists[i].push(pool.product(&[square.inertia, w, part]));
+                let u = pool.group_sum(self.speeds[square.partner]);
+                twists[i].push(pool.product(&[square.inertia, u, part]));
             }
         }
         let accelerations = nested(pool, &lists);
-        let mut forcing = self.projected(pool, &accelerations);
+        let turned = turned.iter().map(|terms| pool.sum(terms));
+        let turned: Vec<ExprId> = turned.collect();
+        let mut forcing = self.projected(pool, &accelerations, &turned);
         for (f, mut twist) in forcing.iter_mut().zip(twists) {
             twist.push(*f);
             let inertial = pool.sum(&twist);
@@ -188,23 +216,27 @@ impl Squares {
         forcing
     }
 
-    /// Σₛ 2cₛ Jₛᵢ xₛ for every coordinate i.
-    fn projected(&self, pool: &mut Pool, x: &[ExprId]) -> Vec<ExprId> {
-        let x: Vec<ExprId> = x.iter().map(|&x| pool.group_sum(x)).collect();
+    /// Σₛ Jₛᵢ (cₛ xₛ + yₛ) for every coordinate i, where x is one number for each velocity uₛ.
+    fn projected(&self, pool: &mut Pool, x: &[ExprId], y: &[ExprId]) -> Vec<ExprId> {
+        let partners = self.squares.iter().map(|square| x[square.partner]);
+        let x: Vec<ExprId> = partners.map(|x| pool.group_sum(x)).collect();
         let mut lists = Vec::new();
         let mut factors = Vec::new();
         for (slope, set) in self.directions.iter().flatten() {
-            let members: Vec<usize> = members(set).filter(|&s| !pool.is_zero(x[s])).collect();
-            let equal = members
-                .iter()
-                .all(|&s| self.squares[s].inertia == self.squares[members[0]].inertia);
-            let sum: Vec<ExprId> = members
-                .iter()
-                .map(|&s| match equal {
-                    true => x[s],
-                    false => pool.mul(self.squares[s].inertia, x[s]),
-                })
-                .collect();
+            let present = |&s: &usize| !(pool.is_zero(x[s]) && pool.is_zero(y[s]));
+            let members: Vec<usize> = members(set).filter(present).collect();
+            let equal = members.iter().all(|&s| {
+                let same = self.squares[s].inertia == self.squares[members[0]].inertia;
+                same && pool.is_zero(y[s])
+            });
+            let terms_of = |&s: &usize| match equal {
+                true => x[s],
+                false => {
+                    let own = pool.mul(self.squares[s].inertia, x[s]);
+                    pool.add(own, y[s])
+                }
+            };
+            let sum: Vec<ExprId> = members.iter().map(terms_of).collect();
             let sum = pool.sum(&sum);
             lists.push(terms(pool, sum));
             factors.push(match members.first() {
@@ -224,6 +256,25 @@ impl Squares {
         }
         projected
     }
+}
+
+/// Per coordinate: the slopes of the velocities of squares, each square's velocity being that of the square `whose`.
+fn directions_of(size: usize, squares: &[Square], whose: impl Fn(usize) -> usize) -> Directions {
+    let mut directions = vec![Vec::new(); size];
+    for s in 0..squares.len() {
+        for &(i, slope) in &squares[whose(s)].slopes {
+            let known: &mut Vec<(ExprId, Set)> = &mut directions[i];
+            let at = match known.iter().position(|&(other, _)| other == slope) {
+                Some(at) => at,
+                None => {
+                    known.push((slope, set::empty(squares.len())));
+                    known.len() - 1
+                }
+            };
+            set::insert(&mut known[at].1, s);
+        }
+    }
+    directions
 }
 
 /// Of J vⱼ: J̇ vⱼ, and what it adds to J̇ₛᵢ − ∂wₛ/∂qᵢ for each i, without zeros.

@@ -225,7 +225,7 @@ fn euler_lagrange_on_standard_systems() {
     }
 }
 
-/// Nine coordinates, T a sum of squares of velocities that are no rates of positions, with weights of all kinds.
+/// Nine coordinates, T a sum of squares and products of velocities that are no rates of positions, with weights of all kinds.
 fn large_system(random: &mut Random) -> Build {
     let names: Vec<String> = (0..9).map(|i| format!("q{i}")).collect();
     let q: Vec<&str> = names.iter().map(String::as_str).collect();
@@ -239,6 +239,12 @@ fn large_system(random: &mut Random) -> Build {
         }
         let weight = ["m/2", "k*m", "3/2", "m/(k + J)"][i % 4];
         energy.push_str(&format!(" + {weight}*({speed})^2"));
+        let (other, factor) = (q[random.below(q.len())], random_position(random, &q));
+        energy.push_str(&match i % 3 {
+            0 => format!(" + k/9*({speed})*({factor}*der({other}) - der({name}))"),
+            1 => format!(" + J/9*({factor})*der({name})*der({other})"),
+            _ => format!(" - k*({factor})*der({other})*({speed})/9"),
+        });
     }
     Build::new(&q.join(" "), "m J k")
         .kinetic("", &energy)
@@ -269,6 +275,73 @@ fn euler_lagrange_on_large_random_systems() {
                 .map(|(j, other)| d.mass(i, j, &point) * point[&format!("v_{other}")])
                 .sum();
             close(name, d.value(d.equations.structure.momenta.0[i], &point), p);
+        }
+    }
+}
+
+/// An arm in space, each joint about an axis of the link before it, of links with full tensors of inertia: more than can be multiplied out.
+fn spatial_arm(n: usize) -> Build {
+    let list: Vec<String> = (0..n).map(|i| format!("q{i}")).collect();
+    let mut build = Build::new(&list.join(" "), "m l g A B C D E F");
+    let sum = |terms: [String; 3]| terms.join(" + ");
+    let mut axes: [[String; 3]; 3] =
+        [0, 1, 2].map(|a| [0, 1, 2].map(|i| format!("{}", u8::from(a == i))));
+    let mut place = [0, 1, 2].map(|_| "0".to_owned());
+    let mut turn = place.clone();
+    let (mut kinetic, mut potential) = ("0".to_owned(), "0".to_owned());
+    for (k, q) in list.iter().enumerate() {
+        let about = [2, 1, 1, 0][k % 4];
+        let (b, c) = ((about + 1) % 3, (about + 2) % 3);
+        for i in 0..3 {
+            let turned = [
+                (about, axes[about][i].clone()),
+                (
+                    b,
+                    format!("cos({q})*{} + sin({q})*{}", axes[b][i], axes[c][i]),
+                ),
+                (
+                    c,
+                    format!("cos({q})*{} - sin({q})*{}", axes[c][i], axes[b][i]),
+                ),
+            ];
+            for (a, turned) in turned {
+                let name = format!("axis{k}{a}{i}");
+                build = build.define(&name, &format!("({turned})"));
+                axes[a][i] = name;
+            }
+            let rate = format!("({} + der({q})*{})", turn[i], axes[about][i]);
+            build = build.define(&format!("turn{k}{i}"), &rate);
+            turn[i] = format!("turn{k}{i}");
+            let next = format!("({} + l*{} + l/3*{})", place[i], axes[2][i], axes[0][i]);
+            build = build.define(&format!("place{k}{i}"), &next);
+            place[i] = format!("place{k}{i}");
+            kinetic.push_str(&format!(" + m/2*der({})^2", place[i]));
+        }
+        let [x, y, z] = [0, 1, 2].map(|a| {
+            let along = [0, 1, 2].map(|i| format!("{}*{}", turn[i], axes[a][i]));
+            format!("({})", sum(along))
+        });
+        kinetic.push_str(&format!(" + A/2*{x}^2 + B/2*{y}^2 + C/2*{z}^2"));
+        kinetic.push_str(&format!(" + D*{x}*{y}/9 + E*{x}*{z}/9 + F*{y}*{z}/9"));
+        potential.push_str(&format!(" + m*g*{}", place[2]));
+    }
+    build.kinetic("", &kinetic).potential("", &potential)
+}
+
+#[test]
+fn euler_lagrange_on_arms_in_space() {
+    let mut random = Random::new(53);
+    for joints in [3, 5] {
+        let d = spatial_arm(joints).derive();
+        let grouped = d
+            .equations
+            .system
+            .pool
+            .holds_group(d.equations.system.kinetic[0].energy);
+        assert_eq!(grouped, joints > 3, "what is shared is kept whole");
+        for _ in 0..5 {
+            let point = d.point(&mut random);
+            check_euler_lagrange(&d, &point);
         }
     }
 }
