@@ -12,11 +12,13 @@ const FEW_TERMS: f64 = 1000.0;
 /// Equations that take more operands to derive have fewer operations if what is shared in them is kept whole.
 pub(super) const MULTIPLIED_OUT: usize = 250_000;
 
-/// Whether multiplying out may give too much: the energies have many terms then.
+/// Whether multiplying out may give too much: energies or dissipations have many terms then.
 pub(super) fn may_outgrow(system: &System) -> bool {
     let energies = system.kinetic.iter().chain(&system.potential);
-    let energies: Vec<ExprId> = energies.map(|term| term.energy).collect();
-    system.pool.terms_multiplied_out(&energies) > FEW_TERMS
+    let energies = energies.map(|term| term.energy);
+    let functions = energies.chain(system.dissipations.iter().map(|d| d.rayleigh));
+    let functions: Vec<ExprId> = functions.collect();
+    system.pool.terms_multiplied_out(&functions) > FEW_TERMS
 }
 
 /// Keeps whole what stands more than once in the expressions of a system.

@@ -63,6 +63,7 @@ mod shared_loads;
 mod skate;
 mod sling;
 mod slips;
+mod stewart;
 mod stiff;
 mod stools;
 mod stretched;

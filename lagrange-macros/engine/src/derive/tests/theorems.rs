@@ -281,6 +281,12 @@ fn euler_lagrange_on_large_random_systems() {
 
 /// An arm in space, each joint about an axis of the link before it, of links with full tensors of inertia: more than can be multiplied out.
 fn spatial_arm(n: usize) -> Build {
+    let (build, kinetic, potential) = spatial_links(n);
+    build.kinetic("", &kinetic).potential("", &potential)
+}
+
+/// The definitions of such an arm, and its energies.
+fn spatial_links(n: usize) -> (Build, String, String) {
     let list: Vec<String> = (0..n).map(|i| format!("q{i}")).collect();
     let mut build = Build::new(&list.join(" "), "m l g A B C D E F");
     let sum = |terms: [String; 3]| terms.join(" + ");
@@ -325,7 +331,7 @@ fn spatial_arm(n: usize) -> Build {
         kinetic.push_str(&format!(" + D*{x}*{y}/9 + E*{x}*{z}/9 + F*{y}*{z}/9"));
         potential.push_str(&format!(" + m*g*{}", place[2]));
     }
-    build.kinetic("", &kinetic).potential("", &potential)
+    (build, kinetic, potential)
 }
 
 #[test]
@@ -343,6 +349,30 @@ fn euler_lagrange_on_arms_in_space() {
             let point = d.point(&mut random);
             check_euler_lagrange(&d, &point);
         }
+    }
+}
+
+/// Dampers from the ground to all links: power −2 R, however many terms R has multiplied out.
+#[test]
+fn dissipations_of_arms_in_space() {
+    let mut random = Random::new(59);
+    let speeds = (0..15).map(|k| format!("der(place{}{})^2", k / 3, k % 3));
+    let speeds: Vec<String> = speeds.collect();
+    let rayleigh = format!("m/2*({})", speeds.join(" + "));
+    let (links, ..) = spatial_links(5);
+    let kinetic = "m/2*(der(q0)^2 + der(q1)^2 + der(q2)^2 + der(q3)^2 + der(q4)^2)";
+    let links = links.kinetic("", kinetic).potential("", "m*g*l*q0");
+    let d = links.dissipation("dampers", &rayleigh).derive();
+    assert!(!d.equations.system.pool.is_full());
+    let dampers = &d.equations.structure.dissipations[0];
+    for _ in 0..3 {
+        let point = d.point(&mut random);
+        let (r, power) = (
+            d.value(dampers.value, &point),
+            d.value(dampers.power, &point),
+        );
+        assert!(r > 0.0);
+        close("power", power, -2.0 * r);
     }
 }
 
