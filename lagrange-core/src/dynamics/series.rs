@@ -14,7 +14,7 @@ use super::{Dynamics, EvaluationError};
 use crate::arithmetic::products::Row;
 use crate::arithmetic::{Pack, Scalar};
 use crate::equations::Refused;
-use crate::program::{MAX_ORDER, Series};
+use crate::program::{MAX_ORDER, Operation, Register, Series};
 use crate::system::ValueRef;
 use std::sync::Arc;
 
@@ -57,8 +57,14 @@ impl<T: Scalar> Dynamics<T> {
         }
         self.run(t, q, v, Extent::Series, true)?;
         if self.compiled().pattern.slip_directions.is_empty() {
-            self.start_series(order)?;
-            Ok(true)
+            match self.start_series(order) {
+                Err(EvaluationError::NoSeries { .. }) if self.hold_roots() => {
+                    let outcome = self.expand_with_roots(order);
+                    self.release_roots();
+                    outcome.map(|()| false)
+                }
+                started => started.map(|()| true),
+            }
         } else {
             self.expand_from_rest(order)?;
             // Beside slips that begin others go on, and turn.
@@ -89,6 +95,43 @@ impl<T: Scalar> Dynamics<T> {
     pub(super) fn registers(&self) -> &[T] {
         let interpreted = self.compiled().interpreted();
         interpreted.map_or(&[], |interpreted| &interpreted.registers)
+    }
+
+    /// Whether roots begin at zero where the registers are; they are held then.
+    fn hold_roots(&mut self) -> bool {
+        let (_, _, interpreted) = self.modes[self.current].parts();
+        let (_, registers, series) = interpreted.parts();
+        series.is_some_and(|series| series.hold_roots(registers))
+    }
+
+    fn release_roots(&mut self) {
+        let (_, _, interpreted) = self.modes[self.current].parts();
+        if let (_, _, Some(series)) = interpreted.parts() {
+            series.release_roots();
+        }
+    }
+
+    /// Coefficients up to `order` where roots that are held begin at zero.
+    fn expand_with_roots(&mut self, order: usize) -> Result<(), EvaluationError> {
+        // The last coefficients of a root need later ones of its argument.
+        let further = (order + 2).min(MAX_ORDER);
+        for _ in 0..=MAX_ORDER {
+            self.start_series(further)?;
+            self.expand(further);
+            let (_, _, interpreted) = self.modes[self.current].parts();
+            let (series, _) = interpreted.series_memory(order);
+            match series.follow_roots(further) {
+                Ok(true) => {}
+                Ok(false) => {
+                    self.take_slip_directions_of_series();
+                    return Ok(());
+                }
+                Err((operation, result)) => return Err(self.no_series(operation, result)),
+            }
+        }
+        // What depends on its own root to the same order is never right.
+        self.release_roots();
+        self.start_series(order)
     }
 
     /// The second half of [`Self::series`], done for several motions at once.
@@ -154,15 +197,19 @@ impl<T: Scalar> Dynamics<T> {
         interpreted.evaluate(Extent::Series, REPORT);
         let (series, registers) = interpreted.series_memory(order);
         match series.singular(registers) {
-            Some((operation, result)) => {
-                let item = interpreted.shape.item_of(result, self.description);
-                Err(EvaluationError::NoSeries { operation, item })
-            }
+            Some((operation, result)) => Err(self.no_series(operation, result)),
             None => {
                 series.begin(registers);
                 Ok(())
             }
         }
+    }
+
+    /// An operation, whose result goes there, has no series.
+    fn no_series(&mut self, operation: Operation, result: Register) -> EvaluationError {
+        let (_, _, interpreted) = self.modes[self.current].parts();
+        let item = interpreted.shape.item_of(result, self.description);
+        EvaluationError::NoSeries { operation, item }
     }
 
     /// Coefficients of all positions and of all velocities; those above the order of the last series mean nothing.

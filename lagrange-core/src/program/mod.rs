@@ -9,6 +9,7 @@ mod builder;
 mod encoded;
 mod evaluate;
 mod instruction;
+mod roots;
 mod selection;
 mod series;
 #[cfg(test)]

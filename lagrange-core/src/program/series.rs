@@ -17,6 +17,7 @@
 //! methods, section 2; Griewank & Walther 2008, Evaluating Derivatives, chapter 13.
 
 use super::instruction::{Instruction, Op, Program, Register, with_registers};
+use super::roots::Root;
 use crate::arithmetic::products::{ROW, Row, STRIDE};
 use crate::arithmetic::{Number, Pack, Scalar};
 
@@ -46,8 +47,8 @@ pub enum Operation {
 
 /// An instruction with the number of the first of its products.
 #[derive(Clone, Copy, Debug)]
-struct Step {
-    instruction: Instruction,
+pub(super) struct Step {
+    pub(super) instruction: Instruction,
     product: u32,
 }
 
@@ -109,10 +110,12 @@ impl<T: Number> Products<T> {
 #[derive(Clone, Debug)]
 pub(crate) struct Series<T> {
     /// What runs before the caller's own equations are solved, and after that.
-    before: Vec<Step>,
-    after: Vec<Step>,
+    pub(super) before: Vec<Step>,
+    pub(super) after: Vec<Step>,
     /// Operations that need a series to exist: where their arguments are.
-    critical: Vec<(Operation, Instruction)>,
+    pub(super) critical: Vec<(Operation, Instruction)>,
+    /// Roots that are given: they begin at zero.
+    pub(super) roots: Vec<Root<T>>,
     /// Number of products.
     count: usize,
     products: Vec<Products<T>>,
@@ -141,6 +144,7 @@ impl<T: Number> Series<T> {
             before: Vec::new(),
             after: Vec::new(),
             critical: Vec::new(),
+            roots: Vec::new(),
             count: 0,
             products: Vec::new(),
             sums: Vec::new(),
@@ -168,6 +172,11 @@ impl<T: Number> Series<T> {
         }
         series.keep(Register::ZERO);
         wanted.iter().for_each(|&register| series.keep(register));
+        for at in 0..series.critical.len() {
+            if let (Operation::SquareRoot | Operation::Power, root) = series.critical[at] {
+                series.keep(root.x);
+            }
+        }
         series.history = vec![[T::of(0.0); ROW]; series.kept.len()];
         series.sums = vec![T::of(0.0); series.products.len() * LANES];
         series
@@ -308,6 +317,9 @@ impl<T: Number> Series<T> {
                 let rate = if k == 1 { first[rate] } else { registers[rate] };
                 registers[register.index() & (N - 1)] = rate / weight;
             }
+            for root in &self.roots {
+                registers[root.to().index() & (N - 1)] = root.coefficient(k);
+            }
             let (sums, _) = self.sums.as_chunks_mut::<LANES>();
             for (sums, products) in sums.iter_mut().zip(&self.products) {
                 *sums = products.earlier(k);
@@ -368,6 +380,7 @@ impl<T: Scalar> Series<T> {
     pub(crate) fn singular(&self, first: &[T]) -> Option<(Operation, Register)> {
         let at = |register: Register| first[register.index()].value();
         let fails = |&&(operation, i): &&(Operation, Instruction)| match operation {
+            _ if self.roots.iter().any(|root| root.to() == i.to) => false,
             Operation::Division => at(i.y) == 0.0,
             Operation::InverseSine => !(at(i.x).abs() < 1.0),
             Operation::Angle => at(i.x) == 0.0 && at(i.y) == 0.0,

@@ -1,8 +1,7 @@
 //! Mᵢⱼ = Σₛ cₛ Jₛᵢ Uₛⱼ, factors that are fixed or shared kept together.
 
-use super::Squares;
 use super::nested::{Terms, nested, terms};
-use super::set::{Set, common, members};
+use super::{Members, Squares};
 use crate::derive::forms::Variables;
 use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Node, Pool, Rational};
@@ -19,6 +18,15 @@ struct Product {
     other: ExprId,
     /// What varies of the other direction.
     varying: ExprId,
+}
+
+/// A direction of one coordinate and, of the partners, one of coordinate j.
+struct Pair {
+    j: usize,
+    own: ExprId,
+    other: ExprId,
+    /// The squares that have both.
+    both: Members,
 }
 
 /// How often a fixed factor meets a direction.
@@ -61,57 +69,76 @@ impl Squares {
             if pool.is_full() {
                 break;
             }
-            for j in 0..=i {
-                for (own, other, set) in self.pairs(i, j) {
-                    let Some(&inertia) = inertias.get(&set) else {
-                        continue;
-                    };
-                    let (fixed, varying) =
-                        *parts.get_or_insert_with(other, || split(pool, x, other));
-                    let scaled = pool.mul(inertia, fixed);
-                    if i != j {
-                        *uses.get_or_default((scaled, own)) += 1;
-                        *uses.get_or_default((inertia, own)) += 1;
-                    }
-                    products.get_or_default((i, j)).push(Product {
-                        inertia,
-                        scaled,
-                        own,
-                        other,
-                        varying,
-                    });
+            for Pair {
+                j,
+                own,
+                other,
+                both,
+            } in self.pairs(i)
+            {
+                let Some(&inertia) = inertias.get(&both) else {
+                    continue;
+                };
+                let (fixed, varying) = *parts.get_or_insert_with(other, || split(pool, x, other));
+                let scaled = pool.mul(inertia, fixed);
+                if i != j {
+                    *uses.get_or_default((scaled, own)) += 1;
+                    *uses.get_or_default((inertia, own)) += 1;
                 }
+                products.get_or_default((i, j)).push(Product {
+                    inertia,
+                    scaled,
+                    own,
+                    other,
+                    varying,
+                });
             }
         }
         (products, uses)
     }
 
-    /// Σ cₛ of all sets of squares in which two directions meet.
-    fn inertias(&self, pool: &mut Pool) -> SortedMap<Set, ExprId> {
-        let mut lists: SortedMap<Set, Terms> = SortedMap::new();
+    /// Σ cₛ of all lists of squares in which two directions meet.
+    fn inertias(&self, pool: &mut Pool) -> SortedMap<Members, ExprId> {
+        let mut lists: SortedMap<Members, Terms> = SortedMap::new();
         for i in 0..self.size {
-            for j in 0..=i {
-                for (_, _, set) in self.pairs(i, j) {
-                    if lists.contains_key(&set) || set.iter().all(|word| *word == 0) {
-                        continue;
-                    }
-                    let list: Vec<ExprId> =
-                        members(&set).map(|s| self.squares[s].inertia).collect();
-                    let sum = pool.sum(&list);
-                    lists.insert(set, terms(pool, sum));
+            if pool.is_full() {
+                break;
+            }
+            for Pair { both, .. } in self.pairs(i) {
+                if lists.contains_key(&both) {
+                    continue;
                 }
+                let list: Vec<ExprId> = both.iter().map(|&s| self.squares[s].inertia).collect();
+                let sum = pool.sum(&list);
+                lists.insert(both, terms(pool, sum));
             }
         }
-        let (sets, lists): (Vec<Set>, Vec<Terms>) = lists.into_iter().unzip();
-        sets.into_iter().zip(nested(pool, &lists)).collect()
+        let (met, lists): (Vec<Members>, Vec<Terms>) = lists.into_iter().unzip();
+        met.into_iter().zip(nested(pool, &lists)).collect()
     }
 
-    /// Directions of i and, of the partners, of j, and the squares that have both.
-    fn pairs(&self, i: usize, j: usize) -> impl Iterator<Item = (ExprId, ExprId, Set)> {
-        self.directions[i].iter().flat_map(move |(own, set)| {
-            let others = self.partners[j].iter();
-            others.map(move |(other, others)| (*own, *other, common(set, others)))
-        })
+    /// Directions of i that meet, in some squares, those of the partners for coordinates up to i.
+    fn pairs(&self, i: usize) -> Vec<Pair> {
+        let mut meetings = Vec::new();
+        for (at, (_, having)) in self.directions[i].iter().enumerate() {
+            for &s in having {
+                let others = &self.squares[self.squares[s].partner].slopes;
+                let others = others.iter().filter(|&&(j, _)| j <= i);
+                meetings.extend(others.map(|&(j, other)| ((j, at, other), s)));
+            }
+        }
+        meetings.sort_unstable();
+        let same = meetings.chunk_by(|(one, _), (other, _)| one == other);
+        let pair = |meetings: &[((usize, usize, ExprId), usize)]| {
+            let (j, at, other) = meetings[0].0;
+            Pair {
+                j,
+                own: self.directions[i][at].0,
+                other,
+                both: meetings.iter().map(|&(_, s)| s).collect(),
+            }
+        };
+        same.map(pair).collect()
     }
 }
 

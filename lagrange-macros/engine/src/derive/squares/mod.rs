@@ -16,7 +16,6 @@
 mod find;
 mod mass;
 mod nested;
-mod set;
 mod turning;
 
 use super::forms::Variables;
@@ -24,7 +23,6 @@ use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Pool, Rational, Symbol};
 use find::{Term, slopes, slopes_of_whole, terms_of_energy};
 use nested::{nested, terms};
-use set::{Set, members};
 use turning::{Turning, recognize};
 
 /// (i, expression)
@@ -42,16 +40,14 @@ struct Square {
     whole: Option<ExprId>,
 }
 
-/// Per coordinate: a direction, and the squares that have it.
-type Directions = Vec<Vec<(ExprId, Set)>>;
+/// Some squares, ascending.
+type Members = Vec<usize>;
 
 /// A kinetic energy as a sum of squares and products.
 pub(super) struct Squares {
     squares: Vec<Square>,
     /// Per coordinate: (Jₛᵢ, the squares that have it).
-    directions: Directions,
-    /// Per coordinate: (Uₛⱼ, the squares that have it).
-    partners: Directions,
+    directions: Vec<Vec<(ExprId, Members)>>,
     /// How the direction of each velocity turns.
     turnings: Vec<Turning>,
     /// wₛ, each made of a shorter one where it contains it.
@@ -61,7 +57,7 @@ pub(super) struct Squares {
 }
 
 impl Squares {
-    /// None if the energy does not have this form.
+    /// None if the energy does not have this form, or gains nothing by it.
     pub fn of(pool: &mut Pool, x: &Variables, kinetic: ExprId) -> Option<Squares> {
         let velocities: SortedMap<Symbol, usize> = x
             .velocities
@@ -95,14 +91,15 @@ impl Squares {
                 lists.push(terms(pool, w));
             }
         }
+        if multiplied_out(&squares) {
+            return None;
+        }
         let turnings = recognize(pool, x, &mut squares);
         let speeds = nested(pool, &lists);
-        let directions = directions_of(x.len(), &squares, |s| s);
-        let partners = directions_of(x.len(), &squares, |s| squares[s].partner);
+        let directions = directions_of(x.len(), &squares);
         Some(Squares {
             squares,
             directions,
-            partners,
             turnings,
             speeds,
             size: x.len(),
@@ -222,9 +219,9 @@ impl Squares {
         let x: Vec<ExprId> = partners.map(|x| pool.group_sum(x)).collect();
         let mut lists = Vec::new();
         let mut factors = Vec::new();
-        for (slope, set) in self.directions.iter().flatten() {
+        for (slope, having) in self.directions.iter().flatten() {
             let present = |&s: &usize| !(pool.is_zero(x[s]) && pool.is_zero(y[s]));
-            let members: Vec<usize> = members(set).filter(present).collect();
+            let members: Members = having.iter().copied().filter(present).collect();
             let equal = members.iter().all(|&s| {
                 let same = self.squares[s].inertia == self.squares[members[0]].inertia;
                 same && pool.is_zero(y[s])
@@ -258,20 +255,25 @@ impl Squares {
     }
 }
 
-/// Per coordinate: the slopes of the velocities of squares, each square's velocity being that of the square `whose`.
-fn directions_of(size: usize, squares: &[Square], whose: impl Fn(usize) -> usize) -> Directions {
-    let mut directions = vec![Vec::new(); size];
-    for s in 0..squares.len() {
-        for &(i, slope) in &squares[whose(s)].slopes {
-            let known: &mut Vec<(ExprId, Set)> = &mut directions[i];
-            let at = match known.iter().position(|&(other, _)| other == slope) {
-                Some(at) => at,
-                None => {
-                    known.push((slope, set::empty(squares.len())));
-                    known.len() - 1
-                }
-            };
-            set::insert(&mut known[at].1, s);
+/// Whether most of what is left whole are products of the rates of two coordinates: nothing is shared in them.
+fn multiplied_out(squares: &[Square]) -> bool {
+    let rates = |(s, square): &(usize, &Square)| {
+        let both = [square, &squares[square.partner]];
+        square.partner != *s && both.iter().all(|square| square.slopes.len() == 1)
+    };
+    2 * squares.iter().enumerate().filter(rates).count() > squares.len()
+}
+
+/// Per coordinate: the slopes of velocities, and the squares that have them.
+fn directions_of(size: usize, squares: &[Square]) -> Vec<Vec<(ExprId, Members)>> {
+    let mut directions: Vec<Vec<(ExprId, Members)>> = vec![Vec::new(); size];
+    for (s, square) in squares.iter().enumerate() {
+        for &(i, slope) in &square.slopes {
+            let known = &mut directions[i];
+            match known.iter_mut().find(|(other, _)| *other == slope) {
+                Some((_, having)) => having.push(s),
+                None => known.push((slope, vec![s])),
+            }
         }
     }
     directions

@@ -8,8 +8,9 @@ use super::Square;
 use crate::derive::forms::Variables;
 use crate::symbolic::{ExprId, Pool, Symbol};
 
-/// More coordinates are left to the form.
+/// More coordinates, and more velocities, are left to the form.
 const MOST_COORDINATES: usize = 32;
+const MOST_VELOCITIES: usize = 512;
 
 /// States at which numbers are compared.
 const STATES: u32 = 3;
@@ -50,6 +51,7 @@ pub(super) fn recognize(pool: &Pool, x: &Variables, squares: &mut [Square]) -> V
     let slopes: Vec<ExprId> = slopes.map(|&(_, slope)| slope).collect();
     let depends = |&e: &ExprId| !pool.branches(e).is_empty() || pool.depends_on_any(e, &[x.time]);
     if x.len() > MOST_COORDINATES
+        || squares.len() > MOST_VELOCITIES
         || squares.iter().all(|square| square.whole.is_none())
         || slopes.iter().any(depends)
     {
