@@ -26,6 +26,9 @@ pub(super) const SYSTEM: usize = 1;
 pub(super) const FORCES: usize = 2;
 pub(super) const REPORT: usize = 3;
 
+/// How far from a state those beside it are, for tests of signs.
+const BESIDE: f64 = 1e-3;
+
 /// How much of the program runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Extent {
@@ -228,6 +231,23 @@ impl<T: Scalar> Interpreted<T> {
         right
             .map(|register| registers[register.index()].value().abs())
             .collect()
+    }
+
+    /// The registers at states on two sides of that of `n` coordinates in them, with its accelerations and forces.
+    pub(super) fn beside(&self, n: usize) -> [Vec<T>; 2] {
+        [-BESIDE, BESIDE].map(|step| {
+            let mut registers = self.registers.clone();
+            for (i, x) in registers[2..2 + 2 * n].iter_mut().enumerate() {
+                // Irrational steps: no two changes are in a simple ratio.
+                let weight = 0.5 + (i as f64 * 0.618_033_988_749).fract();
+                *x += T::from_f64(step * weight);
+            }
+            let program = self.shape.program(Extent::Series);
+            for part in [MOTION, SYSTEM, FORCES, REPORT] {
+                program.evaluate(part, &mut registers);
+            }
+            registers
+        })
     }
 
     /// Runs a part for values.

@@ -58,15 +58,20 @@ impl<T: Scalar> Dynamics<T> {
         self.run(t, q, v, Extent::Series, true)?;
         if self.compiled().pattern.slip_directions.is_empty() {
             match self.start_series(order) {
-                Err(EvaluationError::NoSeries { .. }) if self.hold_roots() => {
-                    let outcome = self.expand_with_roots(order);
-                    self.release_roots();
-                    outcome.map(|()| false)
+                Err(EvaluationError::NoSeries { .. }) => {
+                    let expand = |this: &mut Self, order| {
+                        this.start_series(order)?;
+                        this.expand(order);
+                        Ok(())
+                    };
+                    self.with_roots(order, expand)?;
+                    self.take_slip_directions_of_series();
+                    Ok(false)
                 }
                 started => started.map(|()| true),
             }
         } else {
-            self.expand_from_rest(order)?;
+            self.with_roots(order, Self::expand_from_rest)?;
             // Beside slips that begin others go on, and turn.
             self.take_slip_directions_of_series();
             Ok(false)
@@ -97,41 +102,59 @@ impl<T: Scalar> Dynamics<T> {
         interpreted.map_or(&[], |interpreted| &interpreted.registers)
     }
 
-    /// Whether roots begin at zero where the registers are; they are held then.
-    fn hold_roots(&mut self) -> bool {
-        let (_, _, interpreted) = self.modes[self.current].parts();
-        let (_, registers, series) = interpreted.parts();
-        series.is_some_and(|series| series.hold_roots(registers))
-    }
-
-    fn release_roots(&mut self) {
-        let (_, _, interpreted) = self.modes[self.current].parts();
-        if let (_, _, Some(series)) = interpreted.parts() {
-            series.release_roots();
+    /// Expands to `order`, from values in the registers. Roots that begin at zero are held if there would be no series else.
+    pub(super) fn with_roots(
+        &mut self,
+        order: usize,
+        expand: fn(&mut Self, usize) -> Result<(), EvaluationError>,
+    ) -> Result<(), EvaluationError> {
+        match expand(self, order) {
+            Err(EvaluationError::NoSeries { .. }) if self.hold_roots(order) => {
+                let settled = self.settle_roots(order, expand);
+                let (_, _, interpreted) = self.modes[self.current].parts();
+                let (series, _) = interpreted.series_memory(order);
+                series.release_roots();
+                match settled? {
+                    true => Ok(()),
+                    // What depends on its own root to the same order is never right.
+                    false => expand(self, order),
+                }
+            }
+            outcome => outcome,
         }
     }
 
-    /// Coefficients up to `order` where roots that are held begin at zero.
-    fn expand_with_roots(&mut self, order: usize) -> Result<(), EvaluationError> {
+    /// Whether roots begin at zero where the registers are; they are held then.
+    fn hold_roots(&mut self, order: usize) -> bool {
+        let n = self.description.coordinates.len();
+        let (_, _, interpreted) = self.modes[self.current].parts();
+        let beside = interpreted.beside(n);
+        let (series, registers) = interpreted.series_memory(order);
+        series.hold_roots(registers, &beside)
+    }
+
+    /// Repeats an expansion until roots that are held follow from what they are made of; whether they do at last.
+    fn settle_roots(
+        &mut self,
+        order: usize,
+        expand: fn(&mut Self, usize) -> Result<(), EvaluationError>,
+    ) -> Result<bool, EvaluationError> {
         // The last coefficients of a root need later ones of its argument.
         let further = (order + 2).min(MAX_ORDER);
+        let mut changes = true;
         for _ in 0..=MAX_ORDER {
-            self.start_series(further)?;
-            self.expand(further);
+            if !changes {
+                break;
+            }
+            expand(self, further)?;
             let (_, _, interpreted) = self.modes[self.current].parts();
             let (series, _) = interpreted.series_memory(order);
-            match series.follow_roots(further) {
-                Ok(true) => {}
-                Ok(false) => {
-                    self.take_slip_directions_of_series();
-                    return Ok(());
-                }
+            changes = match series.follow_roots(further) {
+                Ok(changes) => changes,
                 Err((operation, result)) => return Err(self.no_series(operation, result)),
-            }
+            };
         }
-        // What depends on its own root to the same order is never right.
-        self.release_roots();
-        self.start_series(order)
+        Ok(!changes)
     }
 
     /// The second half of [`Self::series`], done for several motions at once.

@@ -284,9 +284,13 @@ impl<T: Scalar> Dynamics<T> {
     pub(crate) fn bends(&mut self, t: T, q: &[T], v: &[T]) -> Result<Vec<T>, EvaluationError> {
         (self.series_by_functions, self.by_functions) = (false, false);
         self.run(t, q, v, Extent::Series, true)?;
-        self.begin_straight();
-        self.start_series(2)?;
-        self.expand(2);
+        let expand = |this: &mut Self, order| {
+            this.begin_straight();
+            this.start_series(order)?;
+            this.expand(order);
+            Ok(())
+        };
+        self.with_roots(2, expand)?;
         let count = self.beginnings();
         Ok((0..count).map(|i| self.crossed(i, 2)).collect())
     }

@@ -47,8 +47,8 @@ pub enum Operation {
 
 /// An instruction with the number of the first of its products.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Step {
-    pub(super) instruction: Instruction,
+struct Step {
+    instruction: Instruction,
     product: u32,
 }
 
@@ -110,12 +110,12 @@ impl<T: Number> Products<T> {
 #[derive(Clone, Debug)]
 pub(crate) struct Series<T> {
     /// What runs before the caller's own equations are solved, and after that.
-    pub(super) before: Vec<Step>,
-    pub(super) after: Vec<Step>,
+    before: Vec<Step>,
+    after: Vec<Step>,
     /// Operations that need a series to exist: where their arguments are.
-    pub(super) critical: Vec<(Operation, Instruction)>,
+    critical: Vec<(Operation, Instruction)>,
     /// Roots that are given: they begin at zero.
-    pub(super) roots: Vec<Root<T>>,
+    roots: Vec<Root<T>>,
     /// Number of products.
     count: usize,
     products: Vec<Products<T>>,
@@ -318,7 +318,7 @@ impl<T: Number> Series<T> {
                 registers[register.index() & (N - 1)] = rate / weight;
             }
             for root in &self.roots {
-                registers[root.to().index() & (N - 1)] = root.coefficient(k);
+                registers[root.own().to.index() & (N - 1)] = root.coefficient(k);
             }
             let (sums, _) = self.sums.as_chunks_mut::<LANES>();
             for (sums, products) in sums.iter_mut().zip(&self.products) {
@@ -380,7 +380,7 @@ impl<T: Scalar> Series<T> {
     pub(crate) fn singular(&self, first: &[T]) -> Option<(Operation, Register)> {
         let at = |register: Register| first[register.index()].value();
         let fails = |&&(operation, i): &&(Operation, Instruction)| match operation {
-            _ if self.roots.iter().any(|root| root.to() == i.to) => false,
+            _ if self.roots.iter().any(|root| root.own().to == i.to) => false,
             Operation::Division => at(i.y) == 0.0,
             Operation::InverseSine => !(at(i.x).abs() < 1.0),
             Operation::Angle => at(i.x) == 0.0 && at(i.y) == 0.0,
@@ -388,6 +388,57 @@ impl<T: Scalar> Series<T> {
         };
         let found = self.critical.iter().find(fails);
         found.map(|&(operation, i)| (operation, i.to))
+    }
+}
+
+impl<T: Scalar> Series<T> {
+    /// Takes the roots that begin at zero in the registers `first` out of the program, to be given instead, first as zero; whether there are
+    /// any. `beside`: the registers at states on two sides.
+    pub(crate) fn hold_roots(&mut self, first: &[T], beside: &[Vec<T>; 2]) -> bool {
+        for &(operation, instruction) in &self.critical {
+            if let Operation::SquareRoot | Operation::Power = operation {
+                self.roots.extend(Root::of(instruction, first, beside));
+            }
+        }
+        for root in &self.roots {
+            place(&mut self.before, &mut self.after, root.given());
+        }
+        !self.roots.is_empty()
+    }
+
+    /// Puts the roots back into the program.
+    pub(crate) fn release_roots(&mut self) {
+        for root in self.roots.drain(..) {
+            place(&mut self.before, &mut self.after, root.own());
+        }
+    }
+
+    /// Gives the roots the coefficients that follow from those, up to `order`, of their arguments in the last expansion; whether any has changed.
+    ///
+    /// # Errors
+    /// The first that has no series.
+    pub(crate) fn follow_roots(&mut self, order: usize) -> Result<bool, (Operation, Register)> {
+        let mut roots = core::mem::take(&mut self.roots);
+        let mut follow = |root: &mut Root<T>| {
+            let Instruction { op, to, x, .. } = root.own();
+            let operation = match op {
+                Op::Sqrt => Operation::SquareRoot,
+                _ => Operation::Power,
+            };
+            root.follow(self.series(x, order)).ok_or((operation, to))
+        };
+        let followed: Result<Vec<bool>, _> = roots.iter_mut().map(&mut follow).collect();
+        self.roots = roots;
+        Ok(followed?.contains(&true))
+    }
+}
+
+/// Puts an instruction in the place of that whose result goes to the same register.
+fn place(before: &mut [Step], after: &mut [Step], instruction: Instruction) {
+    for step in before.iter_mut().chain(after) {
+        if step.instruction.to == instruction.to {
+            step.instruction = instruction;
+        }
     }
 }
 

@@ -477,16 +477,16 @@ fn a_field_outside_its_domain_is_refused_by_name() {
     );
 }
 
-/// A puck on a wet table, with a force and a stop whose roots begin at zero.
+/// A puck on a wet table, with powers that begin at zero.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
     coordinates(x, y, z),
     kinetic = (der(x)^2 + der(y)^2 + der(z)^2) / 2,
     potential = 10 * z,
     contact(table: z >= 0),
-    friction(film on table: slip = (der(x), der(y)), static = 0, kinetic = norm([der(x), der(y)])),
+    friction(film on table: slip = (der(x), der(y)), static = 0, kinetic = norm([der(x), der(y)])^0.6),
     force(pull: x = 1 + strength * sqrt(y)),
-    stop(far: sqrt(x) >= 1),
+    stop(far: x^0.3 >= 1),
 )]
 struct Wet {
     strength: f64,
@@ -495,7 +495,7 @@ struct Wet {
 /// What has no Taylor series where the run begins is named.
 #[test]
 fn what_has_no_series_is_named() {
-    let named = |without: &[Item], y: f64| {
+    let named = |without: &[Item], y: f64, operation: &str| {
         let scene = Wet { strength: 1.0 };
         let effects = without
             .iter()
@@ -506,16 +506,16 @@ fn what_has_no_series_is_named() {
             .run(start, 0.0..1.0);
         match run.expect_err("no series").error {
             Error::Singular { items, reason, .. } => {
-                assert!(reason.contains("square root"), "{reason}");
+                assert!(reason.contains(operation), "{reason}");
                 items
             }
             error => panic!("{error}"),
         }
     };
     let (film, far) = (Wet::FILM.into(), Wet::FAR.into());
-    assert_eq!(named(&[far], 1.0), ["film"]);
-    assert_eq!(named(&[film, far], 0.0), ["x"]);
-    assert_eq!(named(&[film], 1.0), ["far"]);
+    assert_eq!(named(&[far], 1.0, "power"), ["film"]);
+    assert_eq!(named(&[film, far], 0.0, "square root"), ["x"]);
+    assert_eq!(named(&[film], 1.0, "power"), ["far"]);
 }
 
 /// A collar on a guide that runs down to the left at 3 in 4, pressed onto a plank that slides.

@@ -24,6 +24,7 @@ mod damped;
 mod dead_points;
 mod dependent;
 mod die;
+mod drag;
 mod fading;
 mod falls_flat;
 mod feasible;

@@ -1,0 +1,188 @@
+//! Drag that grows with the square of the speed: |v| is a root that begins at zero where a body is let go.
+//!
+//! Closed forms: v̇ = a − k v² from rest has v = w tanh(a t/w) and s = ln cosh(a t/w)/k with w = √(a/k).
+
+use super::state;
+use lagrange_core::prelude::*;
+use lagrange_tests::agree;
+
+const METHODS: [Method; 5] = [
+    Method::Taylor,
+    Method::DormandPrince54,
+    Method::DormandPrince853,
+    Method::Verner98,
+    Method::Radau5,
+];
+
+/// A stone over an inclined floor of friction.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x[3]: "m"),
+    define(v = der([x[0], x[1], x[2]])),
+    kinetic = mass/2 * dot(v, v),
+    potential = mass * gravity * (x[2] * cos(slope) + x[0] * sin(slope)),
+    force(air: -drag * norm(v) * v at [x[0], x[1], x[2]]),
+    contact(floor: x[2] >= 0, restitution = 0),
+    friction(rub on floor: slip = (der(x[0]), der(x[1])), static = 0.5, kinetic = 0.4),
+)]
+struct Stone {
+    #[lagrange(unit = "kg")]
+    mass: f64,
+    #[lagrange(unit = "kg/m")]
+    drag: f64,
+    #[lagrange(unit = "m/s^2")]
+    gravity: f64,
+    #[lagrange(unit = "rad")]
+    slope: f64,
+}
+
+/// The same drag as a dissipation, of a body that nothing else holds.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x: "m", y: "m"),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    potential = mass * gravity * y,
+    dissipation(air: drag/3 * norm(der([x, y]))^3),
+)]
+struct Falling {
+    #[lagrange(unit = "kg")]
+    mass: f64,
+    #[lagrange(unit = "kg/m")]
+    drag: f64,
+    #[lagrange(unit = "m/s^2")]
+    gravity: f64,
+}
+
+/// (s, v) a time t after rest.
+fn from_rest(acceleration: f64, drag: f64, t: f64) -> (f64, f64) {
+    let limit = (acceleration / drag).sqrt();
+    let angle = acceleration * t / limit;
+    (angle.cosh().ln() / drag, limit * angle.tanh())
+}
+
+#[test]
+fn a_stone_that_is_let_go_falls_and_lies() {
+    let stone = Stone {
+        mass: 0.7,
+        drag: 0.05,
+        gravity: 9.81,
+        slope: 0.0,
+    };
+    let (depth, speed) = from_rest(stone.gravity, stone.drag / stone.mass, 1.0);
+    for method in METHODS {
+        let simulation = Simulation::new(&stone).tolerance(1e-11).method(method);
+        let run = simulation
+            .run(state(&[0.0, 0.0, 8.0], &[0.0; 3]), 0.0..3.0)
+            .expect("falls");
+        assert!(run.verify(1).expect("recorded").holds(), "{method:?}");
+        let falling = run.sampler().at(1.0).expect("within").state;
+        agree("height", falling.q[2], 8.0 - depth, 1e-9);
+        agree("speed", falling.v[2], -speed, 1e-9);
+        let end = run.final_state();
+        assert_eq!(end.v.as_slice(), [0.0; 3], "{method:?}");
+        assert!(end.q[2].abs() < 1e-12, "{method:?}: {}", end.q[2]);
+    }
+}
+
+/// Both |v| and the direction of the slip begin where nothing moves yet.
+#[test]
+fn a_stone_that_is_let_go_on_a_steep_slope_slips_at_once() {
+    let stone = Stone {
+        mass: 0.7,
+        drag: 0.05,
+        gravity: 9.81,
+        slope: 0.6,
+    };
+    let pull = stone.gravity * (stone.slope.sin() - 0.4 * stone.slope.cos());
+    let (way, speed) = from_rest(pull, stone.drag / stone.mass, 2.0);
+    for method in METHODS {
+        let simulation = Simulation::new(&stone).tolerance(1e-11).method(method);
+        let run = simulation
+            .run(state(&[0.0; 3], &[0.0; 3]), 0.0..2.0)
+            .expect("slips");
+        assert!(run.verify(1).expect("recorded").holds(), "{method:?}");
+        agree("way", run.final_state().q[0], -way, 1e-9);
+        agree("speed", run.final_state().v[0], -speed, 1e-9);
+    }
+}
+
+#[test]
+fn a_stone_on_a_gentle_slope_stays() {
+    let stone = Stone {
+        mass: 0.7,
+        drag: 0.05,
+        gravity: 9.81,
+        slope: 0.4,
+    };
+    let run = Simulation::new(&stone)
+        .run(state(&[0.0; 3], &[0.0; 3]), 0.0..5.0)
+        .expect("rests");
+    assert_eq!(run.final_state().q.as_slice(), [0.0; 3]);
+    assert!(run.verify(1).expect("recorded").holds());
+}
+
+#[test]
+fn a_dissipation_of_third_order_is_the_same_drag() {
+    let body = Falling {
+        mass: 0.7,
+        drag: 0.05,
+        gravity: 9.81,
+    };
+    let rate = body.drag / body.mass;
+    let limit = (body.gravity / rate).sqrt();
+    // Thrown upwards: v = w tan(atan(v₀/w) − g t/w) until the top, where the speed is zero again.
+    let thrown = 12.0_f64;
+    let to_top = (thrown / limit).atan() * limit / body.gravity;
+    let top = ((thrown / limit).powi(2) + 1.0).ln() / (2.0 * rate);
+    let (depth, speed) = from_rest(body.gravity, rate, 1.0);
+    for method in METHODS {
+        let simulation = Simulation::new(&body).tolerance(1e-10).method(method);
+        let run = simulation
+            .run(state(&[0.0, 0.0], &[0.0, thrown]), 0.0..to_top + 1.0)
+            .expect("rises and falls");
+        assert!(run.verify(1).expect("recorded").holds(), "{method:?}");
+        agree("height", run.final_state().q[1], top - depth, 1e-8);
+        agree("speed", run.final_state().v[1], -speed, 1e-8);
+        let fall = simulation
+            .run(state(&[0.0, 0.0], &[0.0, 0.0]), 0.0..1.0)
+            .expect("falls");
+        agree("fall", fall.final_state().q[1], -depth, 1e-9);
+    }
+}
+
+/// Norton's dome (Causation as folk science, 2003, section 3): on its top a ball may rest, and it may leave at any time.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(r: "m"),
+    kinetic = mass/2 * der(r)^2,
+    potential = -mass * 2/3 * steepness * sqrt(r)^3,
+)]
+struct Dome {
+    #[lagrange(unit = "kg")]
+    mass: f64,
+    #[lagrange(unit = "m^(1/2)/s^2")]
+    steepness: f64,
+}
+
+#[test]
+fn a_rest_that_is_not_the_only_motion_is_refused() {
+    let dome = Dome {
+        mass: 1.0,
+        steepness: 1.0,
+    };
+    let refused = Simulation::new(&dome).run(state(&[0.0], &[0.0]), 0.0..1.0);
+    let Err(failure) = refused else {
+        panic!("it may leave at any time")
+    };
+    let Error::Singular { items, .. } = failure.error else {
+        panic!("{failure}")
+    };
+    assert_eq!(items, ["r"]);
+    // Once it moves, r = (t/c)⁴ with c⁴ = 144.
+    let moving = |t: f64| state(&[t.powi(4) / 144.0], &[t.powi(3) / 36.0]);
+    let run = Simulation::new(&dome)
+        .tolerance(1e-11)
+        .run(moving(1.0), 1.0..3.0)
+        .expect("leaves");
+    agree("r", run.final_state().q[0], moving(3.0).q[0], 1e-9);
+}
