@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use tungstenite::{Error, Message, WebSocket, client};
 
 /// The longest that anything may take.
-const PATIENCE: Duration = Duration::from_secs(20);
+const PATIENCE: Duration = Duration::from_secs(300);
 
 /// A browser with one page.
 pub struct Browser {
