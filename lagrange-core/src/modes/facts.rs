@@ -4,6 +4,9 @@ use crate::mode::Mode;
 use crate::modes::guard::Guard;
 use crate::system::Description;
 
+/// What a force at its limit is from it may do to what it moves, and that to other forces: so many times as much, relative.
+const RESIDUES: f64 = 16.0;
+
 /// What is known exactly at the instant.
 #[derive(Clone, Debug, Default)]
 pub struct SwitchFacts {
@@ -89,7 +92,7 @@ impl<T: Copy> SwitchContext<'_, T> {
         // Where all forces vanish at once a residue has nothing to be compared with.
         let tolerance = self.moment.tolerance;
         let residue = self.facts.residue.min(tolerance.max(1e-6));
-        tolerance.max(1e-14).max(4.0 * residue)
+        tolerance.max(1e-14).max(RESIDUES * residue)
     }
 
     /// Whether a mode is over: a root of it falls through zero.

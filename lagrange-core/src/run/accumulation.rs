@@ -173,12 +173,14 @@ impl Train {
         self.count += 1;
     }
 
+    /// Whether there are enough impacts, of several contacts, to judge it.
+    fn is_long(&self) -> bool {
+        self.count >= WINDOW && self.hits.iter().any(|(_, c)| *c != self.hits[0].1)
+    }
+
     /// How long it will go on, if the second half of the last impacts was shorter than the first.
     fn remaining(&self) -> Option<f64> {
         let ago = |k: usize| self.hits[(self.count + WINDOW - 1 - k) % WINDOW];
-        if self.count < WINDOW || self.hits.iter().all(|(_, c)| *c == self.hits[0].1) {
-            return None;
-        }
         let (now, middle, first) = (ago(0).0, ago(WINDOW / 2).0, ago(WINDOW - 1).0);
         if middle == first {
             return Some(0.0);
@@ -251,7 +253,17 @@ impl<T: Scalar> Run<T> {
 
     /// The same for contacts that are hit without a law in it.
     fn die_out(&mut self, facts: &mut SwitchFacts) -> Option<(usize, T)> {
-        let remaining = self.switcher.train.remaining()?;
+        if !self.switcher.train.is_long() {
+            return None;
+        }
+        let contacts = 0..self.switcher.impacts.len();
+        let unresolved = contacts
+            .filter(|&c| self.switcher.train.has(c))
+            .all(|c| self.is_unresolved(c));
+        let remaining = match unresolved {
+            true => 0.0,
+            false => self.switcher.train.remaining()?,
+        };
         if remaining > ESTIMATED * self.now.t.value().abs() || !self.is_over(remaining) {
             return None;
         }
@@ -284,6 +296,20 @@ impl<T: Scalar> Run<T> {
             let lasts = self.now.t.value() - impacts.last;
             impacts.height <= LOW && lasts <= 2.0 * impacts.interval
         })
+    }
+
+    /// Whether the gap of contact `c` has opened no wider, before its last impact, than what rounding makes of it: such impacts never end.
+    fn is_unresolved(&self, c: usize) -> bool {
+        let row = &self.description().rows[self.description().contacts[c].row];
+        let terms = row.jacobian.iter();
+        let extent: f64 = terms
+            .map(|&(j, place)| {
+                (self.dynamics.motion(place) * self.now.state.q[j])
+                    .value()
+                    .abs()
+            })
+            .sum();
+        self.switcher.impacts[c].height <= RESOLUTION * extent
     }
 
     /// Whether the gap of contact `c` is below the tolerance.

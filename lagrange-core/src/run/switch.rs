@@ -329,8 +329,10 @@ impl<T: Scalar> Run<T> {
         let State { q, v, .. } = &self.now.state;
         self.dynamics.tape(self.now.t, q, v);
         self.now.valued = false;
+        let closed = contacts.clone().filter(|&c| facts.touching[c]);
+        let off = closed.map(|c| self.gap(c).abs()).fold(0.0, f64::max);
         for c in contacts {
-            if may(self, facts, c) && self.touches(c) {
+            if may(self, facts, c) && self.touches(c, off) {
                 self.end(c, facts);
                 let rubs =
                     |f: &usize| matches!(d.frictions[*f].normal, Normal::Contact(own) if own == c);
@@ -341,19 +343,26 @@ impl<T: Scalar> Run<T> {
         }
     }
 
-    /// Whether the gap of contact `c` and its rate vanish beside the terms that make them.
-    fn touches(&self, c: usize) -> bool {
+    /// The gap of contact `c`.
+    fn gap(&self, c: usize) -> f64 {
+        let d = self.description();
+        let place = d.rows[d.contacts[c].row].position;
+        place.map_or(0.0, |place| self.dynamics.motion(place).value())
+    }
+
+    /// Whether the gap of contact `c` and its rate vanish beside the terms that make them; gaps that vanish are `off` by so much.
+    fn touches(&self, c: usize, off: f64) -> bool {
         let contact = &self.description().contacts[c];
         let number = |place| self.dynamics.motion(place).value();
         let row = &self.description().rows[contact.row];
-        let gap = row.position.map_or(0.0, number);
+        let gap = self.gap(c);
         let terms = row.jacobian.iter();
         let extent: f64 = terms
             .map(|&(j, place)| number(place).abs() * self.now.state.q[j].value().abs().max(1.0))
             .sum();
         let (rate, size) = self.rate(contact.row);
         contact.region.is_none_or(|place| number(place) > 0.0)
-            && gap.abs() <= ROUNDING * extent
+            && gap.abs() <= ROUNDING * extent + off
             && rate.abs() <= ROUNDING * size
     }
 
@@ -412,7 +421,10 @@ impl<T: Scalar> Run<T> {
         for (f, friction) in d.frictions.iter().enumerate() {
             facts.resting[f] = match friction.normal {
                 Normal::Contact(c) if !self.switcher.near.contains(&c) => facts.resting[f],
-                Normal::Contact(_) | Normal::Constraint(_) => outcome.sticks[f],
+                // Others that stick may have ended its slip.
+                Normal::Contact(_) | Normal::Constraint(_) => {
+                    outcome.sticks[f] || self.rests_after(outcome, f)
+                }
                 // No impulse acts there, but the impact may have begun or ended its slip.
                 Normal::Given(_) => self.rests_after(outcome, f),
             };

@@ -82,7 +82,7 @@ impl<T: Scalar> Decider<T> {
         let EvaluationPoint { t, q, v, .. } = moment;
         self.posed.clone_from(mode);
         self.forks = false;
-        if mode.has_incipient_slip() && !self.find_directions(dynamics, table, moment)? {
+        if mode.has_incipient_slip() && !self.find_directions(dynamics, table, here)? {
             return Ok(false);
         }
         dynamics.set_mode(&self.posed);

@@ -4,12 +4,13 @@
 //! ṡ × u still changes its sign there, unless the slip can have one direction only: then what it grows by next, s̈ × u, decides.
 
 use super::Decider;
-use super::questions::row_acceleration;
+use super::questions::{concerns, row_acceleration};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::linear::{VanishingCombinations, solve_small};
 use crate::mode::{Direction, FrictionMode};
-use crate::modes::facts::EvaluationPoint;
+use crate::modes::facts::{EvaluationPoint, SwitchContext};
+use crate::modes::guard::Guard;
 use crate::modes::redundant::RedundantForces;
 use crate::modes::table::Table;
 use core::f64::consts::TAU;
@@ -20,8 +21,10 @@ const TRIES: usize = 16;
 const SMALL: f64 = 1e-6;
 /// Iterations that make a direction exact.
 const MOST_ITERATIONS: usize = 60;
-/// ṡ·u below this share of the largest ṡ, or of what frictions do to it, is not positive, nor negative.
+/// ṡ·u below this share of the largest ṡ, or of what frictions do to it, is not positive, nor negative,
 const NOTHING: f64 = 1e-6;
+/// and where a force was located at its limit, below so many times what it is from it.
+const RESIDUES: f64 = 10.0;
 /// Of what makes ṡ, rounding leaves no more than this share.
 const ROUNDING: f64 = 1e-12;
 
@@ -54,6 +57,8 @@ pub(super) struct Beginning {
     /// Frictions whose slips begin, and their angles.
     frictions: Vec<usize>,
     angles: Vec<f64>,
+    /// Share below which ṡ·u is not positive, nor negative.
+    nothing: f64,
 }
 
 impl<T: Scalar> Decider<T> {
@@ -64,11 +69,17 @@ impl<T: Scalar> Decider<T> {
         &mut self,
         dynamics: &mut Dynamics<T>,
         table: &mut Table,
-        moment: EvaluationPoint<'_, T>,
+        here: SwitchContext<'_, T>,
     ) -> Result<bool, EvaluationError> {
+        let moment = here.moment;
         let frictions = &mut self.beginning.frictions;
         frictions.clear();
         frictions.extend(self.posed.incipient().map(|(f, _)| f));
+        let located = |&f: &usize| concerns(Guard::Slip(f), &[], here.facts);
+        self.beginning.nothing = match self.beginning.frictions.iter().any(located) {
+            true => NOTHING.max(RESIDUES * here.blur()),
+            false => NOTHING,
+        };
         for shared in [false, true] {
             self.against_sticking(dynamics, moment, shared);
             self.point();
@@ -184,7 +195,7 @@ impl<T: Scalar> Decider<T> {
             let roots = roots.iter();
             roots.filter(move |(_, along)| *along > least * largest)
         };
-        let nearest = begins(-NOTHING).min_by(|a, b| far(a.0).total_cmp(&far(b.0)));
+        let nearest = begins(-self.beginning.nothing).min_by(|a, b| far(a.0).total_cmp(&far(b.0)));
         let Some(&(nearest, _)) = nearest else {
             return failure.map_or(Ok(Around::Nothing), Err);
         };
@@ -321,7 +332,7 @@ impl Beginning {
         let largest = turns().fold(0.0_f64, |m, turn| m.max(turn.along.abs()));
         let mut turns = turns().zip(strengths);
         Ok(turns.all(|(turn, strength)| {
-            turn.along >= -NOTHING * largest.max(strength) && turn.across.is_finite()
+            turn.along >= -self.nothing * largest.max(strength) && turn.across.is_finite()
         }))
     }
 

@@ -10,6 +10,9 @@ use crate::linear::{Equilibrated, least_norm};
 use crate::mode::FrictionMode;
 use crate::system::{Normal, Restitution, ValueRef};
 
+/// A velocity that is zero is so only to rounding of this, as projections leave it.
+const AT_REST: f64 = 1e-2;
+
 /// What stands between coordinates and rows; the memory is reused.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Gathering<T> {
@@ -69,7 +72,8 @@ impl<T: Scalar> Gathering<T> {
             }
             out.rates
                 .push(if self.at_rest[i] { T::zero() } else { rate });
-            let terms = a.iter().zip(v).map(|(&a, &v)| (a * v).value().abs());
+            let terms = a.iter().zip(v);
+            let terms = terms.map(|(a, v)| a.value().abs() * (v.value().abs() + AT_REST));
             out.terms.push(terms.sum());
         }
         true

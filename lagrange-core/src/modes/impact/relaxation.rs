@@ -144,10 +144,12 @@ impl Relaxation {
         }
         let mut lowered = false;
         for (r, rub) in c.rubs.iter().enumerate() {
-            let size = self.rates[rub.row..rub.row + rub.components]
-                .iter()
-                .zip(&phase.rates[rub.row..])
-                .fold(0.0_f64, |m, (a, b)| m.max(a.abs()).max(b.value().abs()));
+            // Of a slip that friction ends rounding of what it does is left.
+            let size = (rub.row..rub.row + rub.components).fold(0.0_f64, |size, i| {
+                let ended = self.impulses[i].abs() * c.g(i, i).value();
+                let before = phase.rates[i].value().abs();
+                size.max(self.rates[i].abs()).max(before).max(ended)
+            });
             let mut s = [0.0; 2];
             s[..rub.components].copy_from_slice(&self.rates[rub.row..rub.row + rub.components]);
             let speed = s[0].hypot(s[1]);

@@ -266,6 +266,105 @@ fn random_impacts_obey_their_law() {
     assert!(lowered > 10);
 }
 
+/// A box that comes down on its four lower corners, flat or about an edge that lies, sliding or not, fast or almost at rest.
+fn falling_box(random: &mut Random) -> Collision<f64> {
+    let [a, b, h] = [0, 1, 2].map(|_| random.between(0.005, 0.3));
+    let mass = 10f64.powf(random.between(-2.0, 1.0));
+    let inertia = [b * b + h * h, a * a + h * h, a * a + b * b].map(|x| mass * x / 3.0);
+    let (down, along) = [0, 1]
+        .map(|_| 10f64.powf(random.between(-10.0, 0.0)))
+        .into();
+    let mut v = [0.0; 6];
+    v[2] = -down;
+    let lies = random.below(2) == 1;
+    if lies {
+        // Two corners rest, and do not slip.
+        v[3] = down / b;
+        v[1] = -h * v[3];
+    }
+    let slides = random.below(2) == 1;
+    if slides {
+        v[0] += along * random.between(-1.0, 1.0);
+        v[1] += along * random.between(-1.0, 1.0);
+        v[5] = along / a * random.between(-1.0, 1.0);
+    }
+    // Velocities are known to rounding of the unit.
+    for v in &mut v {
+        *v += 1e-17 * random.between(-1.0, 1.0);
+    }
+    let corners = [[a, b], [-a, b], [a, -b], [-a, -b]];
+    let mut rows: Vec<[f64; 6]> = Vec::new();
+    rows.extend(corners.map(|[x, y]| [0.0, 0.0, 1.0, y, -x, 0.0]));
+    for [x, y] in corners {
+        rows.push([1.0, 0.0, 0.0, 0.0, -h, -y]);
+        rows.push([0.0, 1.0, 0.0, h, 0.0, x]);
+    }
+    let (mu, restitution) = (random.between(0.1, 0.95), random.between(0.0, 0.9));
+    let mut c = Collision {
+        size: rows.len(),
+        ..Collision::default()
+    };
+    for k in 0..4 {
+        c.touches.push(ContactRow {
+            contact: k,
+            row: k,
+            restitution,
+            poisson: false,
+        });
+        c.rubs.push(FrictionRow {
+            friction: k,
+            row: 4 + 2 * k,
+            components: 2,
+            bearer: NormalSource::ContactRow(k),
+            factor: 1.0,
+            stick: mu,
+            slide: mu * random.between(0.8, 1.0),
+        });
+    }
+    for row in &rows {
+        for other in &rows {
+            let linear: f64 = (0..3).map(|i| row[i] * other[i]).sum();
+            let turns = (0..3).map(|i| row[3 + i] * other[3 + i] / inertia[i]);
+            c.response.push(linear / mass + turns.sum::<f64>());
+        }
+        let terms = row.iter().zip(&v);
+        c.rates.push(terms.clone().map(|(a, v)| a * v).sum());
+        let sizes = terms.map(|(a, v)| a.abs() * (v.abs() + 1e-2));
+        c.terms.push(sizes.sum());
+    }
+    let at_rest = match (lies, slides) {
+        (false, _) => [0..0, 0..0],
+        (true, true) => [0..2, 0..0],
+        (true, false) => [0..2, 4..8],
+    };
+    for row in at_rest.into_iter().flatten() {
+        c.drift = c.drift.max(c.rates[row].abs() / c.strength(row));
+        c.rates[row] = 0.0;
+    }
+    c
+}
+
+#[test]
+fn boxes_that_come_down_on_four_corners_obey_the_law() {
+    let mut random = Random(fastrand::Rng::with_seed(11));
+    let mut law = Law::<f64>::default();
+    let kind = kinds()[0];
+    let mut unsolved = Vec::new();
+    for number in 0..3000 {
+        let c = falling_box(&mut random);
+        law.phase.within = vec![true; 4];
+        match law.solve(&c, &c.rates) {
+            true => judge(&c, &law, &kind),
+            false => unsolved.push(number),
+        }
+    }
+    assert!(
+        unsolved.is_empty(),
+        "{} of 3000: {unsolved:?}",
+        unsolved.len()
+    );
+}
+
 /// Balls on a line, each against the next.
 fn row_of_balls(masses: &[f64], speeds: &[f64], e: f64) -> Collision<f64> {
     let contacts = masses.len() - 1;

@@ -15,7 +15,7 @@ use crate::arithmetic::Scalar;
 const MOST_STEPS: usize = 30;
 
 impl<T: Scalar> Pattern<T> {
-    /// Newton's method for all equations together; false if it does not converge, or friction would drive a slip.
+    /// Newton's method for all equations together; false if it does not converge.
     pub fn turn(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
         let linear = self.unknowns.len();
         for (rub, slide) in c.rubs.iter().zip(&self.slides) {
@@ -25,14 +25,7 @@ impl<T: Scalar> Pattern<T> {
         }
         let converged = self.newton(c, phase, linear);
         self.unknowns.truncate(linear);
-        let drives = |(rub, slide): (&FrictionRow<T>, &Slide)| {
-            let [impulse, slip] = [&self.impulses, &self.after]
-                .map(|of| [of[rub.row].value(), of[rub.row + 1].value()]);
-            let along = impulse[0] * slip[0] + impulse[1] * slip[1];
-            let size = impulse[0].hypot(impulse[1]);
-            matches!(slide, Slide::Turning(_)) && along > self.noise[rub.row] * size
-        };
-        converged && !c.rubs.iter().zip(&self.slides).any(drives)
+        converged
     }
 
     fn newton(&mut self, c: &Collision<T>, phase: &Phase<T>, linear: usize) -> bool {

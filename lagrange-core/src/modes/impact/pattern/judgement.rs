@@ -49,20 +49,38 @@ impl<T: Scalar> Pattern<T> {
             if !phase.within[k] {
                 continue;
             }
-            let excess = if self.pressed[k] {
-                (phase.least[k] - self.impulses[i]).value() * c.g(i, i).value()
+            let (excess, noise) = if self.pressed[k] {
+                let short = (phase.least[k] - self.impulses[i]).value();
+                (short * c.g(i, i).value(), self.noise[i])
             } else {
-                (phase.aims[k] - self.after[i]).value()
+                // The rate of the last corner of a plate follows from those of the others, and with it what the run has left of them.
+                let off = c.strength(i) * c.drift;
+                ((phase.aims[k] - self.after[i]).value(), self.noise[i] + off)
             };
-            judge(excess, self.noise[i], Violation::ContactRow(k));
+            judge(excess, noise, Violation::ContactRow(k));
         }
         for (r, rub) in c.rubs.iter().enumerate() {
             if let Some((excess, noise)) = self.excess(c, rub, self.slides[r]) {
                 let leeway = if rub.components > 1 { self.leeway } else { 1.0 };
                 judge(excess, leeway * noise, Violation::FrictionRow(r));
             }
+            let drive = self.drive(c, rub, self.slides[r]);
+            judge(drive, self.noise[rub.row], Violation::FrictionRow(r));
         }
         worst.map(|(_, what)| what)
+    }
+
+    /// How fast a turning friction drives its slip: the equations hold there as well. What would have to pull is another matter.
+    fn drive(&self, c: &Collision<T>, rub: &FrictionRow<T>, slide: Slide) -> f64 {
+        let pulls = matches!(rub.bearer, NormalSource::ContactRow(_))
+            && self.impulses[c.bearing_row(rub)].value() < 0.0;
+        if pulls || !matches!(slide, Slide::Turning(_)) {
+            return 0.0;
+        }
+        let [impulse, slip] =
+            [&self.impulses, &self.after].map(|of| [0, 1].map(|k| of[rub.row + k].value()));
+        let size = impulse[0].hypot(impulse[1]).max(f64::MIN_POSITIVE);
+        (impulse[0] * slip[0] + impulse[1] * slip[1]) / size
     }
 
     /// How far a friction is beyond its law, as a rate, and what rounding leaves of that.

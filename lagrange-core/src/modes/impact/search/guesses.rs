@@ -160,15 +160,14 @@ impl<T: Scalar> Search<T> {
     fn repair(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
         for _ in 0..2 * c.size {
             self.tried += 1;
-            if !self.pattern.solve(c, phase) {
-                return false;
-            }
+            let solved = self.pattern.solve(c, phase);
             match self.pattern.violation(c, phase) {
-                None => return true,
-                Some(Violation::ContactRow(k)) => {
+                None => return solved,
+                // A contact that would have to pull turns its friction round, which then has no direction; it lets go all the same.
+                Some(Violation::ContactRow(k)) if solved || self.pattern.pressed[k] => {
                     self.pattern.pressed[k] = !self.pattern.pressed[k]
                 }
-                Some(Violation::FrictionRow(r)) => {
+                Some(Violation::FrictionRow(r)) if solved => {
                     let rub = &c.rubs[r];
                     let impulse = &self.pattern.impulses[rub.row..rub.row + rub.components];
                     let size = length(impulse);
@@ -180,6 +179,7 @@ impl<T: Scalar> Search<T> {
                         _ => Slide::Stick,
                     };
                 }
+                Some(_) => return false,
             }
             for (r, rub) in c.rubs.iter().enumerate() {
                 let bears = self.pattern.bears(rub, phase);
