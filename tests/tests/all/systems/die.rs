@@ -116,6 +116,21 @@ fn a_die_that_rolls_from_edge_to_edge_keeps_a_quarter_of_its_rate() {
 }
 
 /// Corners, edges and faces strike, slide, stick and rock, again and again, until one face lies on the table.
+fn comes_to_rest(scene: &Die, speed: f64, rates: [f64; 3], method: Method, tolerance: f64) {
+    let Die { bounce, mu, .. } = scene;
+    let asked = format!("{bounce} {mu} {speed} {rates:?} {method:?} {tolerance:e}");
+    let run = Simulation::new(scene)
+        .method(method)
+        .tolerance(tolerance)
+        .run(scene.thrown(speed, rates), 0.0..3.0);
+    let run = run.unwrap_or_else(|failure| panic!("{asked}: {failure}"));
+    let end = run.final_state();
+    assert!(end.v.iter().all(|v| v.abs() < 1e-5), "{asked}: {:?}", end.v);
+    agree(&asked, end.q(Die::Z), scene.half, 1e-6);
+    let certificate = run.verify(0).expect("recorded");
+    assert!(certificate.holds(), "{asked}: {certificate}");
+}
+
 #[test]
 fn a_thrown_die_comes_to_rest_on_a_face() {
     let mut random = Random::new(7);
@@ -136,17 +151,42 @@ fn a_thrown_die_comes_to_rest_on_a_face() {
             (Method::DormandPrince853, 1e-9),
             (Method::Radau5, 1e-9),
         ] {
-            let asked = format!("{bounce} {mu} {speed} {rates:?} {method:?} {tolerance:e}");
-            let run = Simulation::new(&scene)
-                .method(method)
-                .tolerance(tolerance)
-                .run(scene.thrown(speed, rates), 0.0..3.0);
-            let run = run.unwrap_or_else(|failure| panic!("{asked}: {failure}"));
-            let end = run.final_state();
-            assert!(end.v.iter().all(|v| v.abs() < 1e-5), "{asked}: {:?}", end.v);
-            agree(&asked, end.q(Die::Z), scene.half, 1e-6);
-            let certificate = run.verify(0).expect("recorded");
-            assert!(certificate.holds(), "{asked}: {certificate}");
+            comes_to_rest(&scene, speed, rates, method, tolerance);
         }
+    }
+}
+
+/// Throws in which all corners of a face land at once, slide together and rattle, and in which a corner that holds reaches its limit.
+#[test]
+fn dice_that_land_flat_or_hold_at_their_limit_come_to_rest() {
+    use Method::{DormandPrince54, DormandPrince853, Radau5, Taylor, Verner98};
+    for (mu, bounce, rates, speed, tolerance, method) in [
+        (0.55, 0.2, [6.816, 6.431, 15.341], 0.881, 1e-6, Taylor),
+        (0.9, 0.0, [-13.280, 29.770, -15.340], -2.793, 1e-12, Taylor),
+        (0.55, 0.2, [3.943, 8.362, 28.330], -1.189, 1e-6, Taylor),
+        (
+            0.9,
+            0.8,
+            [28.840, -25.157, -7.296],
+            0.427,
+            1e-6,
+            DormandPrince54,
+        ),
+        (
+            0.3,
+            0.5,
+            [14.362, 21.362, -26.321],
+            -1.335,
+            1e-12,
+            DormandPrince853,
+        ),
+        (0.55, 0.8, [-3.911, -7.416, -21.907], 1.443, 1e-9, Radau5),
+        (0.55, 0.8, [-7.765, 22.093, 6.006], 2.239, 1e-9, Verner98),
+        (0.9, 0.5, [29.281, 16.738, -12.333], 1.155, 1e-6, Taylor),
+        (0.9, 0.0, [-14.143, -9.380, -16.620], 0.313, 1e-12, Taylor),
+        (0.55, 0.0, [-15.413, 18.393, -14.892], 1.153, 1e-6, Taylor),
+        (0.3, 0.5, [12.719, 10.776, -15.530], 2.191, 1e-9, Radau5),
+    ] {
+        comes_to_rest(&Die::new(bounce, mu), speed, rates, method, tolerance);
     }
 }
