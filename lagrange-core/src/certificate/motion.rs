@@ -56,6 +56,8 @@ pub(super) struct Examination<'a, T: Scalar> {
     /// Derivatives of the polynomials of a step, and accelerations.
     rates: State<T>,
     acceleration: Vec<T>,
+    /// What errors had left of slips as they began in the step.
+    left: Vec<[T; 2]>,
     polynomials: Step,
     /// Ends of the step, errors, and what they are measured by.
     begin: State<f64>,
@@ -156,6 +158,7 @@ pub(super) fn against<T: Scalar>(
         scratch: record.start.clone(),
         rates: record.start.clone(),
         acceleration: record.start.v.clone(),
+        left: Vec::new(),
         polynomials: Step::default(),
         begin: start.clone(),
         last: start.clone(),
@@ -430,7 +433,8 @@ impl<T: Scalar> Examination<'_, T> {
         let outcome = if mode.incipient().next().is_none() {
             Acceleration::acceleration(&mut self.dynamics, time, q, v, &mut self.acceleration)
         } else {
-            let outcome = self.dynamics.value_along(time, q, v);
+            let left = &self.left;
+            let outcome = self.dynamics.value_along_from(time, q, v, left);
             self.acceleration
                 .copy_from_slice(self.dynamics.acceleration());
             outcome
@@ -482,8 +486,16 @@ impl<T: Scalar> Examination<'_, T> {
     /// Makes the equations ready for a step; the state that was taken is lost.
     fn enter(&mut self, segment: &Segment<T>) {
         let (dynamics, scratch) = (&mut self.dynamics, &mut self.scratch);
-        dynamics.set_mode(&self.record.modes[segment.mode]);
+        let mode = &self.record.modes[segment.mode];
+        dynamics.set_mode(mode);
         self.record.hold_rows_aside(segment, dynamics, scratch);
+        self.left.clear();
+        if mode.incipient().next().is_some() {
+            let State { q, v, .. } = scratch;
+            self.record.state_at(segment, T::zero(), q, v);
+            dynamics.tape(segment.t, q, v);
+            self.left.extend(dynamics.beginning_slips());
+        }
     }
 
     /// What is reported at part `s` of a step.

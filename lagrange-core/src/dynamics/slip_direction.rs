@@ -178,6 +178,23 @@ impl<T: Scalar> Dynamics<T> {
     /// # Errors
     /// Those of [`Self::value`].
     pub fn value_along(&mut self, t: T, q: &[T], v: &[T]) -> Result<(), EvaluationError> {
+        self.value_along_from(t, q, v, &[])
+    }
+
+    /// The slips that begin in the mode, as errors have left them at the last [`Self::tape`].
+    pub(crate) fn beginning_slips(&self) -> Vec<[T; 2]> {
+        let beginnings = 0..self.beginnings();
+        beginnings.map(|i| self.slip(self.beginning(i))).collect()
+    }
+
+    /// [`Self::value_along`], where the slips that begin were `left` by errors as they began.
+    pub(crate) fn value_along_from(
+        &mut self,
+        t: T,
+        q: &[T],
+        v: &[T],
+        left: &[[T; 2]],
+    ) -> Result<(), EvaluationError> {
         let count = self.compiled().pattern.slip_directions.len();
         if count == 0 {
             return self.value(t, q, v);
@@ -185,7 +202,9 @@ impl<T: Scalar> Dynamics<T> {
         self.tape(t, q, v);
         for i in 0..count {
             let f = self.beginning(i);
+            let left = left.get(i).copied().unwrap_or_default();
             let slip = self.slip(f);
+            let slip = [0, 1].map(|k| slip[k] - left[k]);
             if dot(slip, slip).value().sqrt() > VANISHING * self.slip_size(f, v) {
                 self.head_along(f, slip);
             }
