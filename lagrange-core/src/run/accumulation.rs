@@ -26,6 +26,9 @@ const REMEMBERED: usize = 128;
 /// A flight that rises no higher than this, in the unit of the gap, is too low for a gap that is rounded at each of its samples.
 const LOW: f64 = 1e-9;
 
+/// Rounding of a gap, relative to the terms that make it.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
 /// Time intervals below this share of the time itself cannot be told apart.
 const RESOLUTION: f64 = 64.0 * f64::EPSILON;
 
@@ -256,13 +259,10 @@ impl<T: Scalar> Run<T> {
         if !self.switcher.train.is_long() {
             return None;
         }
-        let contacts = 0..self.switcher.impacts.len();
-        let unresolved = contacts
-            .filter(|&c| self.switcher.train.has(c))
-            .all(|c| self.is_unresolved(c));
-        let remaining = match unresolved {
-            true => 0.0,
-            false => self.switcher.train.remaining()?,
+        let remaining = match self.switcher.train.remaining() {
+            Some(remaining) => remaining,
+            None if self.is_unresolved() => 0.0,
+            None => return None,
         };
         if remaining > ESTIMATED * self.now.t.value().abs() || !self.is_over(remaining) {
             return None;
@@ -298,18 +298,18 @@ impl<T: Scalar> Run<T> {
         })
     }
 
-    /// Whether the gap of contact `c` has opened no wider, before its last impact, than what rounding makes of it: such impacts never end.
-    fn is_unresolved(&self, c: usize) -> bool {
-        let row = &self.description().rows[self.description().contacts[c].row];
-        let terms = row.jacobian.iter();
-        let extent: f64 = terms
-            .map(|&(j, place)| {
-                (self.dynamics.motion(place) * self.now.state.q[j])
-                    .value()
-                    .abs()
-            })
-            .sum();
-        self.switcher.impacts[c].height <= RESOLUTION * extent
+    /// Whether no gap of the train has opened wider, before the last impact there, than rounding makes of it: such impacts never end.
+    fn is_unresolved(&self) -> bool {
+        let d = self.description();
+        let number = |place| self.dynamics.motion(place).value();
+        let resolution = |c: usize| {
+            let terms = d.rows[d.contacts[c].row].jacobian.iter();
+            let sizes = terms.map(|&(j, place)| number(place) * self.now.state.q[j].value());
+            ROUNDING * sizes.map(f64::abs).sum::<f64>()
+        };
+        let impacts = self.switcher.impacts.iter().enumerate();
+        let mut train = impacts.filter(|(c, _)| self.switcher.train.has(*c));
+        train.all(|(c, impacts)| impacts.height <= resolution(c))
     }
 
     /// Whether the gap of contact `c` is below the tolerance.
