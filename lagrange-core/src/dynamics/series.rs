@@ -154,7 +154,7 @@ impl<T: Scalar> Dynamics<T> {
                 Err((operation, result)) => return Err(self.no_series(operation, result)),
             };
         }
-        Ok(!changes)
+        Ok(!changes && self.begins_clearly())
     }
 
     /// The second half of [`Self::series`], done for several motions at once.

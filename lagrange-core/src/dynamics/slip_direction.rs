@@ -33,6 +33,9 @@ const SMALL: f64 = 1e-5;
 /// A correction this small, relative, is the last one.
 const SETTLED: f64 = 1e-14;
 
+/// ṡ above this share of what friction does to it is no error.
+const CLEARLY: f64 = 1e-3;
+
 /// Coefficients of a direction.
 type Series<T> = [[T; 2]; MAX_ORDER + 2];
 
@@ -294,6 +297,16 @@ impl<T: Scalar> Dynamics<T> {
         self.start_series(order)?;
         self.expand(order);
         Ok(())
+    }
+
+    /// Whether each slip that begins does so by more than what errors make of one whose friction is at its limit: a root of that would begin anywhere.
+    pub(super) fn begins_clearly(&self) -> bool {
+        let strengths = &self.slip_directions.strength;
+        (0..self.beginnings()).all(|i| {
+            let slip = self.slip_coefficient(self.beginning(i), 1);
+            let strength = strengths.get(i).copied().unwrap_or(0.0);
+            dot(slip, slip).value().sqrt() > CLEARLY * strength
+        })
     }
 
     /// Coefficient 2 of s × u of each slip that begins, for directions that do not turn.

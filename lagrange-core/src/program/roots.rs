@@ -78,11 +78,33 @@ impl<T: Scalar> Root<T> {
     }
 }
 
-/// x^(n/2) for τ > 0 of a series that begins at zero: zero if it is, none if its first power is odd or negative.
+/// x^(n/2) for τ > 0 of a series that begins at zero; none if there is no such series.
 fn half_power<T: Scalar>(x: &[T], halves: usize) -> Option<Row<T>> {
-    let mut root = [T::zero(); ROW];
+    let mut base = [T::zero(); ROW];
+    let times = match halves % 2 {
+        0 => {
+            base.iter_mut().zip(x).for_each(|(base, &x)| *base = x);
+            halves / 2
+        }
+        _ => {
+            root(x, &mut base)?;
+            halves
+        }
+    };
+    let mut power = base;
+    for _ in 1..times {
+        let before = power;
+        for (k, c) in power.iter_mut().enumerate() {
+            *c = (0..=k).fold(T::zero(), |sum, i| sum + before[i] * base[k - i]);
+        }
+    }
+    Some(power)
+}
+
+/// √x, in the place of zeros: none if the first power of x is odd, or its coefficient negative.
+fn root<T: Scalar>(x: &[T], root: &mut Row<T>) -> Option<()> {
     let Some(first) = x.iter().position(|c| c.value() != 0.0) else {
-        return Some(root);
+        return Some(());
     };
     let lead = x[first].sqrt();
     if first % 2 == 1 || !(lead.value() > 0.0) {
@@ -96,12 +118,5 @@ fn half_power<T: Scalar>(x: &[T], halves: usize) -> Option<Row<T>> {
         let earlier = (1..k).fold(T::zero(), |sum, i| sum + s[i] * s[k - i]);
         s[k] = (w[k] - earlier) / (lead + lead);
     }
-    let mut power = root;
-    for _ in 1..halves {
-        let before = power;
-        for (k, c) in power.iter_mut().enumerate() {
-            *c = (0..=k).fold(T::zero(), |sum, i| sum + before[i] * root[k - i]);
-        }
-    }
-    Some(power)
+    Some(())
 }
