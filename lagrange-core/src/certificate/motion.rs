@@ -430,7 +430,7 @@ impl<T: Scalar> Examination<'_, T> {
         }
         let time = segment.t + segment.h * s;
         let mode = &self.record.modes[segment.mode];
-        let outcome = if mode.incipient().next().is_none() {
+        let outcome = if !mode.has_incipient_slip() {
             Acceleration::acceleration(&mut self.dynamics, time, q, v, &mut self.acceleration)
         } else {
             let left = &self.left;
@@ -490,7 +490,7 @@ impl<T: Scalar> Examination<'_, T> {
         dynamics.set_mode(mode);
         self.record.hold_rows_aside(segment, dynamics, scratch);
         self.left.clear();
-        if mode.incipient().next().is_some() {
+        if mode.has_incipient_slip() {
             let State { q, v, .. } = scratch;
             self.record.state_at(segment, T::zero(), q, v);
             dynamics.tape(segment.t, q, v);

@@ -59,12 +59,7 @@ impl<T: Scalar> Dynamics<T> {
         if self.compiled().pattern.slip_directions.is_empty() {
             match self.start_series(order) {
                 Err(EvaluationError::NoSeries { .. }) => {
-                    let expand = |this: &mut Self, order| {
-                        this.start_series(order)?;
-                        this.expand(order);
-                        Ok(())
-                    };
-                    self.with_roots(order, expand)?;
+                    self.with_roots(order, Self::expand_anew)?;
                     self.take_slip_directions_of_series();
                     Ok(false)
                 }
@@ -212,6 +207,13 @@ impl<T: Scalar> Dynamics<T> {
                 }
             },
         );
+    }
+
+    /// Coefficients 0…`order` of everything.
+    pub(super) fn expand_anew(&mut self, order: usize) -> Result<(), EvaluationError> {
+        self.start_series(order)?;
+        self.expand(order);
+        Ok(())
     }
 
     /// Coefficients 0 of everything.

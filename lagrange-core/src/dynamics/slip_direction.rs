@@ -287,16 +287,13 @@ impl<T: Scalar> Dynamics<T> {
         self.begin_straight();
         for k in 1..(order + 1).min(MAX_ORDER) {
             self.keep_lengths(k);
-            self.start_series(k + 1)?;
-            self.expand(k + 1);
+            self.expand_anew(k + 1)?;
             if k == 1 {
                 self.respond()?;
             }
             self.turn_all(k)?;
         }
-        self.start_series(order)?;
-        self.expand(order);
-        Ok(())
+        self.expand_anew(order)
     }
 
     /// Whether each slip that begins does so by more than what errors make of one whose friction is at its limit: a root of that would begin anywhere.
@@ -318,9 +315,7 @@ impl<T: Scalar> Dynamics<T> {
         self.run(t, q, v, Extent::Series, true)?;
         let expand = |this: &mut Self, order| {
             this.begin_straight();
-            this.start_series(order)?;
-            this.expand(order);
-            Ok(())
+            this.expand_anew(order)
         };
         self.with_roots(2, expand)?;
         let count = self.beginnings();
@@ -384,8 +379,7 @@ impl<T: Scalar> Dynamics<T> {
             let (along, normal) = self.slip_directions.frame(f);
             for (change, turns) in [(along, false), (normal, true)] {
                 self.slip_directions.add(f, 1, change);
-                self.start_series(2)?;
-                self.expand(2);
+                self.expand_anew(2)?;
                 for i in 0..count {
                     let f = self.beginning(i);
                     let (before, after) = (
@@ -404,9 +398,7 @@ impl<T: Scalar> Dynamics<T> {
                 self.slip_directions.keep_length(f, 1);
             }
         }
-        self.start_series(2)?;
-        self.expand(2);
-        Ok(())
+        self.expand_anew(2)
     }
 
     /// Solves for the turns of order `k`; the slips are known up to order k + 1 without them.
@@ -451,8 +443,7 @@ impl<T: Scalar> Dynamics<T> {
             if !higher || k > 1 || largest <= SETTLED * size {
                 break;
             }
-            self.start_series(k + 1)?;
-            self.expand(k + 1);
+            self.expand_anew(k + 1)?;
         }
         Ok(())
     }
@@ -481,8 +472,7 @@ impl<T: Scalar> Dynamics<T> {
         let count = self.beginnings();
         let next = |dynamics: &mut Self| -> Result<Vec<T>, EvaluationError> {
             dynamics.keep_lengths(k + 1);
-            dynamics.start_series(k + 2)?;
-            dynamics.expand(k + 2);
+            dynamics.expand_anew(k + 2)?;
             Ok((0..count).map(|i| dynamics.crossed(i, k + 2)).collect())
         };
         let sum = |weights: &[T], terms: &[T]| {

@@ -12,6 +12,9 @@ use crate::modes::exact;
 use crate::modes::guard::{self, Guard};
 use crate::system::{Normal, ValueRef};
 
+/// A velocity below it counts as much: one that is zero is so only to rounding of its unit, as projections leave it.
+pub const AT_REST: f64 = 1e-2;
+
 /// What all guards of a state share.
 #[derive(Clone, Debug, Default)]
 pub struct Sizes {

@@ -115,7 +115,7 @@ pub(crate) struct Series<T> {
     /// Operations that need a series to exist: where their arguments are.
     critical: Vec<(Operation, Instruction)>,
     /// Roots that are given: they begin at zero.
-    roots: Vec<Root<T>>,
+    roots: Vec<(Operation, Root<T>)>,
     /// Number of products.
     count: usize,
     products: Vec<Products<T>>,
@@ -317,7 +317,7 @@ impl<T: Number> Series<T> {
                 let rate = if k == 1 { first[rate] } else { registers[rate] };
                 registers[register.index() & (N - 1)] = rate / weight;
             }
-            for root in &self.roots {
+            for (_, root) in &self.roots {
                 registers[root.own().to.index() & (N - 1)] = root.coefficient(k);
             }
             let (sums, _) = self.sums.as_chunks_mut::<LANES>();
@@ -380,7 +380,7 @@ impl<T: Scalar> Series<T> {
     pub(crate) fn singular(&self, first: &[T]) -> Option<(Operation, Register)> {
         let at = |register: Register| first[register.index()].value();
         let fails = |&&(operation, i): &&(Operation, Instruction)| match operation {
-            _ if self.roots.iter().any(|root| root.own().to == i.to) => false,
+            _ if self.roots.iter().any(|(_, root)| root.own().to == i.to) => false,
             Operation::Division => at(i.y) == 0.0,
             Operation::InverseSine => !(at(i.x).abs() < 1.0),
             Operation::Angle => at(i.x) == 0.0 && at(i.y) == 0.0,
@@ -389,18 +389,17 @@ impl<T: Scalar> Series<T> {
         let found = self.critical.iter().find(fails);
         found.map(|&(operation, i)| (operation, i.to))
     }
-}
 
-impl<T: Scalar> Series<T> {
     /// Takes the roots that begin at zero in the registers `first` out of the program, to be given instead, first as zero; whether there are
     /// any. `beside`: the registers at states on two sides.
     pub(crate) fn hold_roots(&mut self, first: &[T], beside: &[Vec<T>; 2]) -> bool {
         for &(operation, instruction) in &self.critical {
             if let Operation::SquareRoot | Operation::Power = operation {
-                self.roots.extend(Root::of(instruction, first, beside));
+                let root = Root::of(instruction, first, beside);
+                self.roots.extend(root.map(|root| (operation, root)));
             }
         }
-        for root in &self.roots {
+        for (_, root) in &self.roots {
             place(&mut self.before, &mut self.after, root.given());
         }
         !self.roots.is_empty()
@@ -408,7 +407,7 @@ impl<T: Scalar> Series<T> {
 
     /// Puts the roots back into the program.
     pub(crate) fn release_roots(&mut self) {
-        for root in self.roots.drain(..) {
+        for (_, root) in self.roots.drain(..) {
             place(&mut self.before, &mut self.after, root.own());
         }
     }
@@ -419,15 +418,11 @@ impl<T: Scalar> Series<T> {
     /// The first that has no series.
     pub(crate) fn follow_roots(&mut self, order: usize) -> Result<bool, (Operation, Register)> {
         let mut roots = core::mem::take(&mut self.roots);
-        let mut follow = |root: &mut Root<T>| {
-            let Instruction { op, to, x, .. } = root.own();
-            let operation = match op {
-                Op::Sqrt => Operation::SquareRoot,
-                _ => Operation::Power,
-            };
-            root.follow(self.series(x, order)).ok_or((operation, to))
+        let follow = |(operation, root): &mut (Operation, Root<T>)| {
+            let Instruction { to, x, .. } = root.own();
+            root.follow(self.series(x, order)).ok_or((*operation, to))
         };
-        let followed: Result<Vec<bool>, _> = roots.iter_mut().map(&mut follow).collect();
+        let followed: Result<Vec<bool>, _> = roots.iter_mut().map(follow).collect();
         self.roots = roots;
         Ok(followed?.contains(&true))
     }

@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::mode::FrictionMode;
 use crate::modes::facts::SwitchFacts;
 use crate::modes::impact::Impact;
-use crate::system::{Normal, ValueRef};
+use crate::system::Normal;
 use crate::trajectory::{EventKind, State, Subject};
 
 /// Shrinking is believed after this many intervals.
@@ -314,9 +314,7 @@ impl<T: Scalar> Run<T> {
 
     /// Whether the gap of contact `c` is below the tolerance.
     fn vanishes(&self, c: usize) -> bool {
-        let row = &self.description().rows[self.description().contacts[c].row];
-        let gap = self.dynamics.motion(row.position.unwrap_or(ValueRef::Zero));
-        gap.value().abs() <= self.settings.tolerance
+        self.gap(c).abs() <= self.settings.tolerance
     }
 
     /// Contact `c` bounces no more.

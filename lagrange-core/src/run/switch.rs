@@ -14,6 +14,7 @@ use crate::modes::guard::{self, Guard};
 use crate::modes::held::HeldBranches;
 use crate::modes::impact::{Collider, Impact};
 use crate::modes::redundant::RedundantForces;
+use crate::modes::scale::AT_REST;
 use crate::modes::status::ConstraintStatus;
 use crate::modes::table::Table;
 use crate::pool::Pool;
@@ -344,7 +345,7 @@ impl<T: Scalar> Run<T> {
     }
 
     /// The gap of contact `c`.
-    fn gap(&self, c: usize) -> f64 {
+    pub(super) fn gap(&self, c: usize) -> f64 {
         let d = self.description();
         let place = d.rows[d.contacts[c].row].position;
         place.map_or(0.0, |place| self.dynamics.motion(place).value())
@@ -535,7 +536,7 @@ impl<T: Scalar> Run<T> {
     pub(super) fn rate(&self, row: usize) -> (f64, f64) {
         let row = &self.description().rows[row];
         let number = |place| self.dynamics.motion(place).value();
-        let size = |j: usize| self.now.state.v[j].value().abs() + 1e-2;
+        let size = |j: usize| self.now.state.v[j].value().abs() + AT_REST;
         let terms = row.jacobian.iter();
         let sizes = terms.map(|&(j, place)| number(place).abs() * size(j));
         (number(row.velocity), sizes.sum())

@@ -12,6 +12,7 @@ use crate::modes::composite::{self, CompositeGuard};
 use crate::modes::facts::{EvaluationPoint, SwitchContext, SwitchFacts};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
+use crate::modes::scale::AT_REST;
 use crate::modes::table::Table;
 use crate::system::ValueRef;
 
@@ -32,9 +33,6 @@ const MOST_JOINTS: usize = 20;
 
 /// A row that acts and whose rate grows beyond this share of what it is made of, over a step, does not follow from the others.
 const APART: f64 = 1e-6;
-
-/// Velocities below it are compared with it.
-const AT_REST: f64 = 1e-2;
 
 /// A force that takes away no more than this of the momentum in a second may be what rounding of the state leaves of zero,
 const NOTHING: f64 = 1e-12;

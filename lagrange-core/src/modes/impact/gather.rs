@@ -8,10 +8,8 @@ use crate::dynamics::Dynamics;
 use crate::effects::Item;
 use crate::linear::{Equilibrated, least_norm};
 use crate::mode::FrictionMode;
+use crate::modes::scale::AT_REST;
 use crate::system::{Normal, Restitution, ValueRef};
-
-/// A velocity that is zero is so only to rounding of this, as projections leave it.
-const AT_REST: f64 = 1e-2;
 
 /// What stands between coordinates and rows; the memory is reused.
 #[derive(Clone, Debug, Default)]

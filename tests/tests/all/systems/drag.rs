@@ -36,6 +36,17 @@ struct Stone {
     slope: f64,
 }
 
+impl Stone {
+    fn on(slope: f64) -> Self {
+        Stone {
+            mass: 0.7,
+            drag: 0.05,
+            gravity: 9.81,
+            slope,
+        }
+    }
+}
+
 /// The same drag as a dissipation, of a body that nothing else holds.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
@@ -62,12 +73,7 @@ fn from_rest(acceleration: f64, drag: f64, t: f64) -> (f64, f64) {
 
 #[test]
 fn a_stone_that_is_let_go_falls_and_lies() {
-    let stone = Stone {
-        mass: 0.7,
-        drag: 0.05,
-        gravity: 9.81,
-        slope: 0.0,
-    };
+    let stone = Stone::on(0.0);
     let (depth, speed) = from_rest(stone.gravity, stone.drag / stone.mass, 1.0);
     for method in METHODS {
         let simulation = Simulation::new(&stone).tolerance(1e-11).method(method);
@@ -87,12 +93,7 @@ fn a_stone_that_is_let_go_falls_and_lies() {
 /// Both |v| and the direction of the slip begin where nothing moves yet.
 #[test]
 fn a_stone_that_is_let_go_on_a_steep_slope_slips_at_once() {
-    let stone = Stone {
-        mass: 0.7,
-        drag: 0.05,
-        gravity: 9.81,
-        slope: 0.6,
-    };
+    let stone = Stone::on(0.6);
     let pull = stone.gravity * (stone.slope.sin() - 0.4 * stone.slope.cos());
     let (way, speed) = from_rest(pull, stone.drag / stone.mass, 2.0);
     for method in METHODS {
@@ -108,12 +109,7 @@ fn a_stone_that_is_let_go_on_a_steep_slope_slips_at_once() {
 
 #[test]
 fn a_stone_on_a_gentle_slope_stays() {
-    let stone = Stone {
-        mass: 0.7,
-        drag: 0.05,
-        gravity: 9.81,
-        slope: 0.4,
-    };
+    let stone = Stone::on(0.4);
     let run = Simulation::new(&stone)
         .run(state(&[0.0; 3], &[0.0; 3]), 0.0..5.0)
         .expect("rests");
