@@ -189,26 +189,38 @@ pub struct Start {
     pub values: Vec<StartValue>,
 }
 
-/// Order of the quantity that a start sets.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Order {
+/// The quantity that a start sets.
+#[derive(Clone, Debug)]
+pub enum StartQuantity {
     /// `x = …`
     Position,
     /// `der(x) = …`
     Velocity,
+    /// `body.turn = …`, `body.body_rate = …`, `body.space_rate = …`
+    Member(Name),
 }
 
 /// One value of a start.
 #[derive(Clone, Debug)]
 pub struct StartValue {
-    /// Position or velocity.
-    pub order: Order,
-    /// Coordinate.
+    /// What of it.
+    pub quantity: StartQuantity,
+    /// Coordinate, or body.
     pub name: Name,
     /// Which elements of an array.
     pub element: Element,
     /// Its value.
     pub value: Expr,
+}
+
+impl StartValue {
+    /// What is set, without its index and `der`: `theta`, `body.turn`.
+    pub fn place(&self) -> String {
+        match &self.quantity {
+            StartQuantity::Member(member) => format!("{}.{}", self.name.text, member.text),
+            StartQuantity::Position | StartQuantity::Velocity => self.name.text.clone(),
+        }
+    }
 }
 
 /// Which elements of an array.

@@ -18,7 +18,7 @@ pub use expression::{Comparison, Decimal, Expr, ExprKind, Factor, Relation, Sign
 pub use item::{
     Action, Attitude, Check, Claim, Clause, Constraint, Contact, Coordinate, Definition,
     Dissipation, Element, Emit, Energy, Force, Friction, FrictionLaw, Impacts, Item, ItemKind,
-    ModeWord, Observe, Order, Premise, Restitution, Start, StartValue, Trigger, Watch,
+    ModeWord, Observe, Premise, Restitution, Start, StartQuantity, StartValue, Trigger, Watch,
 };
 
 /// A struct with its declaration.

@@ -6,8 +6,8 @@ use super::names::Names;
 use super::{Item, Part};
 use crate::ast::{
     Action, Check, Claim, Clause, Contact, Coordinate, Declaration, Element, Expr, Friction,
-    FrictionLaw, Head, Impacts, Index, ItemKind, ModeWord, Observe, Order, Premise, Reference,
-    Restitution, Start, Trigger, Watch,
+    FrictionLaw, Head, Impacts, Index, ItemKind, ModeWord, Observe, Premise, Reference,
+    Restitution, Start, StartQuantity, Trigger, Watch,
 };
 
 /// All items that say something about the system.
@@ -215,15 +215,15 @@ fn referred(item: &Reference) -> String {
 
 fn start(start: &Start, names: &Names) -> Vec<Part> {
     let values = start.values.iter().map(|value| {
-        let letter = names.declared(&value.name.text);
+        let (letter, rate) = match &value.quantity {
+            StartQuantity::Position => (names.declared(&value.name.text), 0),
+            StartQuantity::Velocity => (names.declared(&value.name.text), 1),
+            StartQuantity::Member(member) => (names.member(&value.name.text, &member.text), 0),
+        };
         let letter = match &value.element {
             Element::Whole => letter,
             Element::One(index) => letter.element(&index.to_string()),
             Element::Each(index) => letter.element(&index.name.text),
-        };
-        let rate = match value.order {
-            Order::Position => 0,
-            Order::Velocity => 1,
         };
         Part::Statement(Statement::equal(
             Formula::Letter(letter.rate(rate)),

@@ -61,29 +61,20 @@ impl Names {
                 (None, base) => Formula::Element(Box::new(base), Box::new(self.written(index))),
             },
             ExprKind::Member(base, name) => {
-                if let Some(known) = self.member(base, &name.text) {
-                    return Formula::Letter(known);
+                if let ExprKind::Name(body) = &base.kind {
+                    return Formula::Letter(self.member(&body.text, &name.text));
                 }
-                match self.written(base) {
-                    Formula::Letter(letter) => {
-                        Formula::Letter(Letter::new(&format!("{}.{}", letter.base, name.text)))
-                    }
-                    other => other,
-                }
+                self.written(base)
             }
         }
     }
 
-    /// The letter of the rates or the axes of a body, where there is one.
-    fn member(&self, base: &Expr, member: &str) -> Option<Letter> {
-        let ExprKind::Name(name) = &base.kind else {
-            return None;
-        };
-        let body = self.body(&name.text)?;
-        match member {
-            "body_rate" => Some(Letter::of("ω", body)),
-            "axes" => Some(Letter::of("e", body)),
-            _ => None,
+    /// The letter of what a body has.
+    pub fn member(&self, name: &str, member: &str) -> Letter {
+        match (self.body(name), member) {
+            (Some(body), "body_rate") => Letter::of("ω", body),
+            (Some(body), "axes") => Letter::of("e", body),
+            _ => Letter::new(&format!("{}.{member}", self.declared(name).base)),
         }
     }
 

@@ -86,18 +86,6 @@ impl Elaboration<'_> {
         });
     }
 
-    /// Starts that do not orient a body leave it along the axes of space: q = 0 is no orientation.
-    pub fn upright(&mut self, positions: &mut Vec<(usize, ExprId)>) {
-        for &first in self.bodies.values() {
-            if !positions
-                .iter()
-                .any(|(coordinate, _)| (first..first + 4).contains(coordinate))
-            {
-                positions.push((first, self.system.pool.integer(1)));
-            }
-        }
-    }
-
     /// (w, u) or (ẇ, u̇)
     fn quaternion(&mut self, first: usize, depth: Depth) -> (ExprId, [ExprId; 3]) {
         let mut leaf = |k: usize| {
@@ -118,25 +106,7 @@ impl Elaboration<'_> {
                 .report(Code::NoSuchMember, member, &[base, &member.text, &BODIES]);
             return None;
         };
-        let Some(&first) = self.bodies.get(&name.text) else {
-            match self.names.get(&name.text) {
-                None => self.unknown(name),
-                Some(Entry {
-                    meaning: Meaning::Poisoned,
-                    ..
-                }) => {}
-                Some(_) => {
-                    let velocity = matches!(member.text.as_str(), "dot" | "d" | "v" | "velocity");
-                    let hint = match velocity {
-                        true => format!("its velocity is written `der({base})`"),
-                        false => BODIES.to_owned(),
-                    };
-                    self.sink
-                        .report(Code::NoSuchMember, member, &[base, &member.text, &hint])
-                }
-            }
-            return None;
-        };
+        let first = self.body_of(name, member)?;
         let text = format!("{base}.{}", member.text);
         match member.text.as_str() {
             "axes" => {
@@ -161,6 +131,31 @@ impl Elaboration<'_> {
                 None
             }
         }
+    }
+
+    /// The first coordinate of the body whose member is spoken of.
+    pub fn body_of(&mut self, name: &Name, member: &Name) -> Option<usize> {
+        if let Some(&first) = self.bodies.get(&name.text) {
+            return Some(first);
+        }
+        match self.names.get(&name.text) {
+            None => self.unknown(name),
+            Some(Entry {
+                meaning: Meaning::Poisoned,
+                ..
+            }) => {}
+            Some(_) => {
+                let name = &name.text;
+                let velocity = matches!(member.text.as_str(), "dot" | "d" | "v" | "velocity");
+                let hint = match velocity {
+                    true => format!("its velocity is written `der({name})`"),
+                    false => BODIES.to_owned(),
+                };
+                self.sink
+                    .report(Code::NoSuchMember, member, &[name, &member.text, &hint])
+            }
+        }
+        None
     }
 
     fn axes(&mut self, first: usize) -> Value {

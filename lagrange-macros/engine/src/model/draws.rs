@@ -243,7 +243,7 @@ impl Elaboration<'_> {
                 }
                 Detail::Angle => Turn::Angle(self.scalar(value, PLACE)?),
                 Detail::Attitude => Turn::Attitude(self.body(value)?),
-                Detail::Turn => Turn::About(self.turns(key, value)?),
+                Detail::Turn => Turn::About(self.turns(key, value, PLACE)?),
                 Detail::Rolled => Turn::Rolled(self.numbers(key, value, 3)?),
             };
             if turned {
@@ -297,8 +297,13 @@ impl Elaboration<'_> {
     }
 
     /// A rotation vector, or a list of them.
-    fn turns(&mut self, key: &ast::Name, value: &Expr) -> Option<Vec<ExprId>> {
-        let found = self.value(value, PLACE)?;
+    pub fn turns(
+        &mut self,
+        key: &ast::Name,
+        value: &Expr,
+        context: Context,
+    ) -> Option<Vec<ExprId>> {
+        let found = self.value(value, context)?;
         let vectors = match &found {
             Value::List(all) if all.iter().all(|one| one.length().is_some()) => all.clone(),
             _ => vec![found],

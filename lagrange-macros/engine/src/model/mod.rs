@@ -26,6 +26,7 @@ mod indices;
 mod lookup;
 mod meaning;
 mod names;
+mod oriented;
 mod outputs;
 mod piecewise;
 mod reach;

@@ -1,18 +1,16 @@
-//! Named starts: positions and velocities as expressions in parameters and t. What is not named is 0; a body that is
-//! not oriented stands along the axes of space.
+//! Named starts: positions and velocities as expressions in parameters and t. What is not named is 0; bodies that are turned or spin
+//! are [oriented](super::oriented).
 
 use super::Start;
 use super::depth::{Context, Reach};
 use super::elaboration::Elaboration;
+use super::oriented::Oriented;
 use super::value::Value;
-use crate::ast::{self, Element, Index, Order, StartValue};
+use crate::ast::{self, Element, Index, Name, StartQuantity, StartValue};
 use crate::diagnostics::Code;
 use crate::symbolic::ExprId;
 
-const START: Context = Context::new(Reach::Parameters, "a start");
-
-/// (order, coordinate, value)
-type Setting = (Order, usize, ExprId);
+pub(super) const START: Context = Context::new(Reach::Parameters, "a start");
 
 impl Elaboration<'_> {
     pub fn start(&mut self, declared: &ast::Start) {
@@ -22,39 +20,64 @@ impl Elaboration<'_> {
                 positions: Vec::new(),
                 velocities: Vec::new(),
             };
-            let found: Vec<Option<Vec<Setting>>> = declared
+            let mut bodies: Vec<Oriented> = Vec::new();
+            // All mistakes are told, not only the first.
+            let taken: Vec<Option<()>> = declared
                 .values
                 .iter()
-                .map(|value| this.setting(value))
+                .map(|value| match &value.quantity {
+                    StartQuantity::Member(member) => this.orient(&mut bodies, value, member),
+                    _ => this.set(&mut start, value),
+                })
                 .collect();
-            for (value, settings) in declared.values.iter().zip(found) {
-                for (order, coordinate, e) in settings? {
-                    let list = match order {
-                        Order::Position => &mut start.positions,
-                        Order::Velocity => &mut start.velocities,
-                    };
-                    if list.iter().any(|(known, _)| *known == coordinate) {
-                        let q = &this.system.coordinates[coordinate];
-                        let text = match order {
-                            Order::Position => q.name.text.clone(),
-                            Order::Velocity => this.system.pool.name(q.velocity).to_string(),
-                        };
-                        this.sink.report(Code::SameTwice, &value.name, &[&text]);
-                        return None;
-                    }
-                    list.push((coordinate, e));
-                }
-            }
-            this.upright(&mut start.positions);
+            taken.into_iter().collect::<Option<()>>()?;
+            this.place(&mut start, &bodies)?;
             this.system.starts.push(start);
             Some(this.system.starts.len() - 1)
         });
     }
 
-    /// One `x = e`, for one coordinate or several.
-    fn setting(&mut self, declared: &StartValue) -> Option<Vec<Setting>> {
+    /// One `x = e` or `der(x) = e`, for one coordinate or several.
+    fn set(&mut self, start: &mut Start, declared: &StartValue) -> Option<()> {
         let (first, length) = self.coordinates_of(&declared.name)?;
-        let values = match (&declared.element, length) {
+        let moves = matches!(declared.quantity, StartQuantity::Velocity);
+        let values = self.elements_of(declared, length)?;
+        let mut values = values.into_iter();
+        values.try_for_each(|(k, e)| self.begin(start, moves, (first + k, e), &declared.name))
+    }
+
+    /// Sets a position, or a velocity of what `moves`, that is not set already.
+    pub fn begin(
+        &mut self,
+        start: &mut Start,
+        moves: bool,
+        (coordinate, e): (usize, ExprId),
+        at: &Name,
+    ) -> Option<()> {
+        let list = match moves {
+            false => &mut start.positions,
+            true => &mut start.velocities,
+        };
+        if list.iter().any(|(known, _)| *known == coordinate) {
+            let q = &self.system.coordinates[coordinate];
+            let text = match moves {
+                false => q.name.text.clone(),
+                true => self.system.pool.name(q.velocity).to_string(),
+            };
+            self.sink.report(Code::SameTwice, at, &[&text]);
+            return None;
+        }
+        list.push((coordinate, e));
+        Some(())
+    }
+
+    /// The elements that are set, of so many, and their values.
+    pub fn elements_of(
+        &mut self,
+        declared: &StartValue,
+        length: Option<usize>,
+    ) -> Option<Vec<(usize, ExprId)>> {
+        Some(match (&declared.element, length) {
             (Element::Whole, None) => vec![(0, self.scalar(&declared.value, START)?)],
             (Element::Whole, Some(length)) => self.all_elements(declared, length)?,
             (Element::One(index), Some(length)) => {
@@ -68,10 +91,7 @@ impl Elaboration<'_> {
                 self.sink.report(Code::ScalarForList, name, &[&hint]);
                 return None;
             }
-        };
-        let order = declared.order;
-        let settings = values.into_iter().map(|(k, e)| (order, first + k, e));
-        Some(settings.collect())
+        })
     }
 
     /// `x = [a, b, c]`
@@ -85,7 +105,7 @@ impl Elaboration<'_> {
         if let Value::Scalar(_) = list {
             let hint = format!(
                 "`{0}` has {length} elements: `{0}[k in 0..{length}] = …`",
-                declared.name.text
+                declared.place()
             );
             self.sink.report(Code::ScalarForList, at, &[&hint]);
             return None;

@@ -13,7 +13,7 @@ use lagrange_core::prelude::*;
 #[lagrange(
     attitude(body: q),
     kinetic = sum(k in 0..3: inertia[k]/2 * body.body_rate[k]^2),
-    start(spun: q[0] = 1, der(q[1]) = nudge/2, der(q[2]) = rate/2),
+    start(spun: body.body_rate = (nudge, rate, 0)),
     observe(rate_of_body = body.body_rate),
     // The box that has these moments of inertia, a little thicker, so that a plate is seen from the side.
     define(

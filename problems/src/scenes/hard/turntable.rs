@@ -18,8 +18,8 @@ use lagrange_core::prelude::*;
     constraint(rolling_x: der(x) - radius * ball.space_rate[1] == -rate * y),
     constraint(rolling_y: der(y) + radius * ball.space_rate[0] == rate * x),
     start(put:
-        x = start_x, q[0] = 1, der(y) = start_speed,
-        der(q[1]) = (rate * start_x - start_speed) / (2 * radius)),
+        x = start_x, der(y) = start_speed,
+        ball.space_rate[0] = (rate * start_x - start_speed) / radius),
     // The table is larger than the circle that the ball runs on.
     draw(floor: -radius),
     draw(disc: (0, 0, -radius/4),

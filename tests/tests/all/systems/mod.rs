@@ -47,6 +47,7 @@ mod metric;
 mod mirrored;
 mod multiples_of_pi;
 mod onset;
+mod oriented;
 mod pads;
 mod parameters;
 mod pendulum;

@@ -8,10 +8,11 @@
 //! force along x       E/x                   (fx, fy) at (px, py): fᵢ in E/pᵢ; f along s: E s⁻¹/s
 //! ```
 
+use super::dimension::Dimension;
 use super::quantity::{Quantity, Unknowns};
 use super::shape::{Role, Shape};
 use crate::ast::{
-    self, Action, Clause, Declaration, Expr, Head, ItemKind, Observe, Order, Reference, Trigger,
+    self, Action, Clause, Declaration, Expr, Head, ItemKind, Observe, Reference, Trigger,
 };
 use crate::diagnostics::Diagnostics;
 use crate::model::Level;
@@ -293,27 +294,27 @@ impl Checker<'_, '_> {
     }
 
     fn start_value(&mut self, value: &ast::StartValue) -> Option<()> {
-        let shape = self.names.get(&value.name.text)?.as_ref()?;
-        let mut unit = shape.quantities().into_iter().next()?;
         let name = &value.name.text;
-        let mut what = format!("`{name}`");
-        if value.order == Order::Velocity {
-            unit = self.times_time(&unit, -1);
-            what = format!("`der({name})`");
-        }
-        let expect = |this: &mut Self| match &value.value.kind {
-            ast::ExprKind::List(values) => values
-                .iter()
-                .filter(|value| !value.is_number())
-                .try_for_each(|value| this.expect(value, &unit, what.as_str())),
-            _ if value.value.is_number() => Some(()),
-            _ => {
-                let found = this.shape(&value.value, Some(&unit))?.quantities();
-                found
-                    .iter()
-                    .try_for_each(|found| this.equal(&unit, found, what.as_str(), &value.value))
+        let coordinate = |this: &Self| {
+            let shape = this.names.get(name)?.as_ref()?;
+            shape.quantities().into_iter().next()
+        };
+        let (unit, what) = match &value.quantity {
+            ast::StartQuantity::Position => (coordinate(self)?, format!("`{name}`")),
+            ast::StartQuantity::Velocity => {
+                let unit = coordinate(self)?;
+                (self.times_time(&unit, -1), format!("`der({name})`"))
+            }
+            ast::StartQuantity::Member(member) => {
+                let angle = Dimension::ONE.into();
+                let unit = match member.text.as_str() {
+                    "turn" => angle,
+                    _ => self.times_time(&angle, -1),
+                };
+                (unit, format!("`{}`", value.place()))
             }
         };
+        let expect = |this: &mut Self| this.all(&value.value, &unit, what.as_str().into());
         match &value.element {
             ast::Element::Each(index) => {
                 let (from, to) = self.elaboration.bounds(&index.range)?;

@@ -39,7 +39,7 @@ impl Checker<'_, '_> {
 
     /// Whether all elements of a value have this unit, or are plain numbers, which are read in it. A list that is written out is
     /// blamed by element.
-    fn all(&mut self, value: &Expr, wanted: &Quantity, role: Role) -> Option<()> {
+    pub(super) fn all(&mut self, value: &Expr, wanted: &Quantity, role: Role) -> Option<()> {
         if let ast::ExprKind::List(elements) = &value.kind {
             return elements
                 .iter()

@@ -1,10 +1,10 @@
-//! `start(name: x = e, der(x) = e, theta[k in 0..8] = …)`
+//! `start(name: x = e, der(x) = e, theta[k in 0..8] = …, body.turn = [a, b, c])`
 
 use super::super::cursor::Cursor;
 use super::super::expression::{index, whole};
 use super::super::leftover::leftover;
 use super::head;
-use crate::ast::{Element, ItemKind, Order, Start, StartValue};
+use crate::ast::{Element, ItemKind, Start, StartQuantity, StartValue};
 use crate::diagnostics::Diagnostics;
 use proc_macro2::Delimiter;
 
@@ -30,13 +30,13 @@ pub(super) fn start(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<It
     Some(ItemKind::Start(Start { head, values }))
 }
 
-/// `x = e` or `der(x) = e`
+/// `x = e`, `der(x) = e` or `body.turn = e`
 fn value(part: &mut Cursor, sink: &mut Diagnostics) -> Option<StartValue> {
     let word = part.name(
         "where the run begins: a position `x = …` or a velocity `der(x) = …`",
         sink,
     )?;
-    let (order, name, element) = match part.group(Delimiter::Parenthesis) {
+    let (quantity, name, element) = match part.group(Delimiter::Parenthesis) {
         Some(group) if word.text == "der" => {
             part.next();
             let mut inside = part.inside(&group, sink)?;
@@ -50,17 +50,20 @@ fn value(part: &mut Cursor, sink: &mut Diagnostics) -> Option<StartValue> {
             let name = inside.name("a coordinate", sink)?;
             let element = element(&mut inside, sink)?;
             leftover(&mut inside, sink)?;
-            (Order::Velocity, name, element)
+            (StartQuantity::Velocity, name, element)
         }
         _ => {
-            let element = element(part, sink)?;
-            (Order::Position, word, element)
+            let quantity = match part.take(".") {
+                None => StartQuantity::Position,
+                Some(_) => StartQuantity::Member(part.name("the name of a member", sink)?),
+            };
+            (quantity, word, element(part, sink)?)
         }
     };
     part.require("=", sink)?;
     let value = whole(part, sink)?;
     Some(StartValue {
-        order,
+        quantity,
         name,
         element,
         value,
