@@ -27,6 +27,7 @@ impl<T: Scalar> Run<T> {
             _ => self
                 .domain_left()
                 .or_else(|| self.steps_too_long())
+                .or_else(|| self.extremal_constraint())
                 .unwrap_or_else(|| self.overflow(error)),
         }
     }

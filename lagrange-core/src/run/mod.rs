@@ -4,6 +4,7 @@ mod accumulation;
 mod cause;
 mod dead_centre;
 mod exponents;
+mod extremal;
 mod fading;
 mod feasible;
 mod guard_polynomials;
@@ -265,7 +266,12 @@ impl<T: Scalar> Run<T> {
         self.recorder.awaited.clone_from(&self.settings.last_events);
         (self.recorder.events_before, self.recorder.finished) = (0, false);
         let begun = self.enter_start().and_then(|()| self.settle());
-        begun.map_err(|error| self.overflow(error))?;
+        begun.map_err(|error| match error {
+            Error::Singular { .. } | Error::NotFinite { .. } => self
+                .extremal_constraint()
+                .unwrap_or_else(|| self.overflow(error)),
+            error => error,
+        })?;
         self.begin_sides();
         self.recorder.finished |= self.has_seen_all();
         Ok(())

@@ -710,3 +710,63 @@ fn a_relay_that_has_no_mode_is_told_no_causes_of_contacts() {
         "{told}"
     );
 }
+
+/// A point held at the origin by a condition that is a square.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = weight * y,
+    constraint(pin: x^2 + y^2 == 0),
+    start(held),
+)]
+struct Squared {
+    weight: f64,
+}
+
+/// A disc whose axle is held in a bearing by a product that is largest where it fits, and a bead on two lines that cross.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    attitude(disc: q),
+    kinetic = dot(disc.body_rate, disc.body_rate) / 2 + (der(x)^2 + der(y)^2) / 2,
+    potential = weight * y,
+    force(twist: 1 along disc.space_rate[0]),
+    constraint(axle: dot(disc.axes[2], [0, 3/5, 4/5]) == 1),
+    constraint(lines: x * y == 0),
+    start(fits: disc.turn = (-acos(4/5), 0, 0), disc.body_rate = (0, 0, 3), x = 1),
+    start(crosses: disc.turn = (-acos(4/5), 0, 0), der(x) = 1),
+)]
+struct Bearing {
+    weight: f64,
+}
+
+#[test]
+fn a_constraint_that_is_extremal_where_it_holds_is_named() {
+    let named = |failure: &Failure, wanted: &str| {
+        let Error::Singular { items, reason, .. } = &failure.error else {
+            panic!("{failure}");
+        };
+        assert_eq!(items[..], [wanted], "{failure}");
+        assert!(reason.contains("smallest or largest"), "{failure}");
+    };
+    let scene = Squared { weight: 9.81 };
+    let run = Simulation::new(&scene).run(scene.at(Squared::HELD), 0.0..1.0);
+    named(&run.expect_err("no force"), "pin");
+
+    let scene = Bearing { weight: 9.81 };
+    let run = Simulation::new(&scene).run(scene.at(Bearing::FITS), 0.0..1.0);
+    named(&run.expect_err("no torque"), "axle");
+
+    // Without the bearing, two lines that cross are no extremum: there are both signs around.
+    let simulation = Simulation::new(&scene).effects(Effects::all().without(Bearing::AXLE));
+    let run = simulation.run(scene.at(Bearing::FITS), 0.0..1.0);
+    assert_eq!(run.expect("along a line").final_state().q(Bearing::X), 1.0);
+    let failure = simulation
+        .run(scene.at(Bearing::CROSSES), 0.0..1.0)
+        .expect_err("two lines");
+    assert!(
+        !failure.to_string().contains("smallest or largest"),
+        "{failure}"
+    );
+}
