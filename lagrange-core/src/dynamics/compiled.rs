@@ -3,6 +3,7 @@
 
 use super::constants::Constants;
 use super::emitted::{Emitted, is_finite};
+use super::held::Held;
 use super::interpreted::{Asked, Interpreted, Part, Planned};
 use super::output_mask::{self, OutputMask};
 use crate::arithmetic::Scalar;
@@ -24,6 +25,8 @@ pub(super) struct Compiled<T: Scalar> {
     pub motion_needs: OutputMask,
     /// Inertia, Jacobians and residuals of the rows that act.
     pub row_needs: OutputMask,
+    /// What is held beside.
+    pub held: Held,
     /// Rows that act, ascending.
     pub acting: Vec<usize>,
     /// The system's own, then the plan's.
@@ -67,6 +70,7 @@ impl<T: Scalar> Compiled<T> {
             mode: mode.clone(),
             motion_needs,
             row_needs,
+            held: Held::new(d),
             acting: acting(d, effects, mode).collect(),
             constants: Vec::new(),
             pattern: KktPattern::default(),
@@ -115,6 +119,7 @@ impl<T: Scalar> Compiled<T> {
             .set(d, effects, &self.mode, &mut self.constants);
         if !self.pattern.is_like(&self.spare) {
             self.interpreted.list.clear();
+            self.held.selected = None;
             self.solver
                 .reserve(self.pattern.free(), self.pattern.kept.len());
             let free = &self.pattern.elimination.free;
@@ -138,6 +143,15 @@ impl<T: Scalar> Compiled<T> {
     /// The parameters have changed.
     pub(super) fn outdate(&mut self) {
         self.outdated = true;
+        self.held.selected = None;
+    }
+
+    /// Holds what is asked for beside the motion: extra needs, those of the report, and the energies that are no part of it.
+    #[inline]
+    pub(super) fn hold(&mut self, d: &Description, asked: (&OutputMask, &OutputMask, &OutputMask)) {
+        let gives_rows = self.emitted.as_ref().is_some_and(Emitted::gives_rows);
+        let rows = gives_rows.then_some(&self.row_needs);
+        self.held.renew(d, &self.motion_needs, rows, asked);
     }
 
     /// Takes the present parameters, if they have changed. Interpreted equations take them when they are selected.
@@ -184,12 +198,12 @@ impl<T: Scalar> Compiled<T> {
         Outcome::of(emitted.accelerations(&held, state, out), out)
     }
 
-    /// The same with the forces of all rows and what `needs` ask for beside.
+    /// The same with the forces of all rows, and what is held if guards read it.
     #[inline]
     pub(super) fn value(
         &mut self,
         d: &Description,
-        needs: Option<&OutputMask>,
+        for_guards: bool,
         state: Arguments<T>,
         accelerations: &mut [T],
         forces: &mut [T],
@@ -202,7 +216,10 @@ impl<T: Scalar> Compiled<T> {
             return Outcome::NotGiven;
         }
         let held = Selection {
-            needs: needs.unwrap_or(&self.motion_needs),
+            needs: match for_guards {
+                true => &self.held.value,
+                false => &self.motion_needs,
+            },
             branches: &self.mode.branches,
         };
         let Some(emitted) = &mut self.emitted else {
@@ -220,14 +237,13 @@ impl<T: Scalar> Compiled<T> {
         Selection { needs, branches }
     }
 
-    /// The functions of the mode, to be expanded, with what they are told for these needs.
+    /// The functions of the mode, to be expanded, with what they are told.
     #[inline]
-    pub(super) fn emitted_mut<'a>(
-        &'a mut self,
-        needs: &'a OutputMask,
-    ) -> Option<(&'a mut Emitted<T>, Selection<'a>)> {
-        let branches = &self.mode.branches;
-        let held = Selection { needs, branches };
+    pub(super) fn emitted_mut(&mut self) -> Option<(&mut Emitted<T>, Selection<'_>)> {
+        let held = Selection {
+            needs: &self.held.series,
+            branches: &self.mode.branches,
+        };
         self.emitted.as_mut().map(|emitted| (emitted, held))
     }
 
@@ -289,14 +305,15 @@ impl<T: Scalar> Compiled<T> {
         self.refused = true;
     }
 
-    /// Makes the interpreted equations for what is asked current, with the numbers of the present parameters. `numbers` is memory.
+    /// Makes a part of the interpreted equations for what is held current, with the numbers of the present parameters. `numbers` is memory.
     pub(super) fn select(
         &mut self,
         system: &dyn ErasedSystem<T>,
-        asked: &Asked,
+        part: Part,
         numbers: &mut Vec<T>,
     ) {
-        let mut loaded = core::mem::take(self.loaded(asked.part));
+        let mut loaded = core::mem::take(self.loaded(part));
+        let asked = &self.held.asked(part);
         let found = loaded
             .list
             .iter_mut()
@@ -305,7 +322,8 @@ impl<T: Scalar> Compiled<T> {
             let one = Interpreted::load(system, self.planned(), asked, numbers);
             loaded.keep(one)
         });
-        *self.loaded(asked.part) = loaded;
+        *self.loaded(part) = loaded;
+        self.held.selected = Some(part);
     }
 
     fn loaded(&mut self, part: Part) -> &mut Loaded<T> {

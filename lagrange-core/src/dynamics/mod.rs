@@ -8,6 +8,7 @@ mod compiled;
 mod constants;
 mod emitted;
 mod error;
+mod held;
 mod interpreted;
 mod jacobian;
 mod matrices;
@@ -39,7 +40,7 @@ use crate::system::{Description, ValueRef};
 use compiled::Compiled;
 use constants::Constants;
 use emitted::Emitted;
-use interpreted::{Asked, Part};
+use interpreted::Part;
 
 /// What evaluates the equations of motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -92,25 +93,17 @@ pub struct Dynamics<T: Scalar> {
     numbers: Vec<T>,
     /// Index of the mode to forget next.
     oldest: usize,
-    /// The equations of motion of this mode and what was asked for beside.
-    held: OutputMask,
+    /// What was asked for beside the equations of motion.
     extra: OutputMask,
+    /// Whether the mode holds it.
+    holds: bool,
     /// Whether nothing else is read of this than what guards read.
     guards_alone: bool,
     /// Whether the outputs at the last value are those that the functions of the mode have given.
     given: bool,
     report_needs: OutputMask,
-    /// What is held of the report: the effects' own needs and what was asked for.
-    report_held: OutputMask,
-    reports: bool,
-    /// What is held of the functions of a mode for a series,
-    series_held: OutputMask,
-    /// and for values: what a projection takes as well, where they give that.
-    value_held: OutputMask,
     /// Of the named energies.
     energies: OutputMask,
-    /// Which interpreted equations are in use; none if they are those for other needs, or of another mode.
-    selected: Option<Part>,
     /// Whether the last evaluation was by the functions of the mode.
     by_functions: bool,
     /// Whether the last series was; a value between a series and what is read of it may not be.
@@ -144,7 +137,7 @@ impl<T: Scalar> Dynamics<T> {
         projector.reserve(n, rows);
         let mut constants = Constants::new(d, effects);
         let open = Compiled::new(&*system, effects, &Mode::open(d), &mut constants);
-        let mut dynamics = Self {
+        Self {
             effects: effects.clone(),
             constants,
             modes: vec![open],
@@ -153,17 +146,12 @@ impl<T: Scalar> Dynamics<T> {
             current: 0,
             numbers: Vec::new(),
             oldest: 0,
-            held: OutputMask::new(d),
             extra: OutputMask::new(d),
+            holds: false,
             guards_alone: false,
             given: false,
             report_needs: OutputMask::new(d),
-            report_held: OutputMask::new(d),
-            reports: false,
-            series_held: OutputMask::new(d),
-            value_held: OutputMask::new(d),
             energies: output_mask::of_energies(d),
-            selected: None,
             by_functions: false,
             series_by_functions: false,
             equations: Equations::Emitted,
@@ -178,9 +166,7 @@ impl<T: Scalar> Dynamics<T> {
             columns: Vec::new(),
             lanes: Vec::new(),
             work: Work::default(),
-        };
-        dynamics.hold();
-        dynamics
+        }
     }
 
     /// The table of names, places and needs.
@@ -301,7 +287,7 @@ impl<T: Scalar> Dynamics<T> {
         self.current = known.unwrap_or_else(|| self.compile(mode));
         self.renew();
         self.modes[self.current].mode.clone_from(mode);
-        self.hold();
+        (self.holds, self.given) = (false, false);
     }
 
     /// Takes another system of the same kind. What has been loaded stays, with other numbers in it.
@@ -310,7 +296,7 @@ impl<T: Scalar> Dynamics<T> {
         self.constants.outdate();
         self.modes.iter_mut().for_each(Compiled::outdate);
         self.renew();
-        (self.selected, self.given) = (None, false);
+        self.given = false;
     }
 
     /// Brings the present mode up to date with the parameters.
@@ -341,21 +327,15 @@ impl<T: Scalar> Dynamics<T> {
     /// Makes a part of the interpreted equations for the present mode and needs current.
     #[inline]
     fn select(&mut self, part: Part) {
-        if self.selected == Some(part) {
+        self.hold();
+        let compiled = &mut self.modes[self.current];
+        if compiled.held.selected == Some(part) {
             return;
         }
-        let compiled = &mut self.modes[self.current];
         if part == Part::Solution {
             compiled.make_plan(self.description, &self.effects);
         }
-        let asked = Asked {
-            held: &self.held,
-            extra: &self.extra,
-            report: self.reports.then_some(&self.report_held),
-            part,
-        };
-        compiled.select(&*self.system, &asked, &mut self.numbers);
-        self.selected = Some(part);
+        compiled.select(&*self.system, part, &mut self.numbers);
     }
 
     /// Makes those interpreted equations current that outputs are read from.
@@ -385,7 +365,7 @@ impl<T: Scalar> Dynamics<T> {
             self.extra.clear();
             self.extra.extend(needs);
             self.guards_alone = guards_alone;
-            self.hold();
+            (self.holds, self.given) = (false, false);
         }
     }
 
@@ -396,49 +376,18 @@ impl<T: Scalar> Dynamics<T> {
         if self.report_needs[..] != *needs {
             self.report_needs.clear();
             self.report_needs.extend(needs);
-            self.hold();
+            (self.holds, self.given) = (false, false);
         }
     }
 
-    /// Output masks of the programs. What is selected for others is out of date.
+    /// Has the present mode hold what is asked for, before it is evaluated.
+    #[inline]
     fn hold(&mut self) {
-        let d = self.description();
-        let motion = self.modes[self.current].motion_needs.iter();
-        self.held
-            .assign(motion.zip(self.extra.iter()).map(|(a, b)| a | b));
-        self.series_held.assign(
-            self.held
-                .iter()
-                .zip(self.report_needs.iter())
-                .map(|(a, b)| a | b),
-        );
-        self.value_held.assign(self.series_held.iter().copied());
-        if self.gives_rows() {
-            let compiled = &self.modes[self.current];
-            self.value_held.extend(&compiled.row_needs);
+        if !self.holds {
+            self.holds = true;
+            let asked = (&self.extra, &self.report_needs, &self.energies);
+            self.modes[self.current].hold(self.description, asked);
         }
-        // The named energies stand under their own needs also in the report, for the energy balance alone.
-        let balance =
-            self.report_needs.contains(d.energy.need) || self.report_needs.contains(d.momenta.need);
-        let left_out = |energies: u64| if balance { 0 } else { energies };
-        let report = self
-            .held
-            .iter()
-            .zip(self.report_needs.iter())
-            .zip(self.energies.iter());
-        self.report_held
-            .assign(report.map(|((a, b), &e)| (a | b) & !left_out(e)));
-        let after_solve = d
-            .branches
-            .iter()
-            .any(|b| b.after_solve && self.held.contains(b.need));
-        self.reports = after_solve
-            || self
-                .report_needs
-                .iter()
-                .enumerate()
-                .any(|(i, &w)| w & !u64::from(i == 0) != 0);
-        (self.selected, self.given) = (None, false);
     }
 
     fn solve_error(&self, error: SolveError) -> EvaluationError {

@@ -7,9 +7,20 @@ use crate::system::{Description, Normal};
 use core::ops::Deref;
 
 /// A set of needs; reads as those of a [`Selection`](crate::program::Selection).
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Debug, Default, PartialEq, Eq)]
 pub struct OutputMask {
     words: Vec<u64>,
+}
+
+impl Clone for OutputMask {
+    fn clone(&self) -> Self {
+        let words = self.words.clone();
+        Self { words }
+    }
+
+    fn clone_from(&mut self, other: &Self) {
+        self.words.clone_from(&other.words);
+    }
 }
 
 impl Deref for OutputMask {

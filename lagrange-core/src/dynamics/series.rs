@@ -43,8 +43,9 @@ impl<T: Scalar> Dynamics<T> {
         self.work.series += 1;
         self.work.coefficients += order + 1;
         self.series_by_functions = false;
+        self.hold();
         if self.choose(q, v) {
-            let expanded = self.modes[self.current].emitted_mut(&self.series_held);
+            let expanded = self.modes[self.current].emitted_mut();
             match expanded.map(|(emitted, held)| emitted.series(&held, order, (t, q, v))) {
                 Some(Ok(())) => {
                     self.series_by_functions = true;

@@ -48,12 +48,13 @@ impl<T: Scalar> Dynamics<T> {
         accelerations: &mut [T],
         forces: &mut [T],
     ) -> Result<(), EvaluationError> {
+        self.hold();
         let compiled = &mut self.modes[self.current];
         let outcome = match self.equations {
             Equations::Interpreted => Outcome::NotGiven,
             Equations::Emitted => {
-                let held = self.guards_alone.then_some(&self.value_held);
-                compiled.value(self.description, held, (t, q, v), accelerations, forces)
+                let alone = self.guards_alone;
+                compiled.value(self.description, alone, (t, q, v), accelerations, forces)
             }
         };
         self.by_functions = outcome == Outcome::Given;
@@ -278,7 +279,7 @@ impl<T: Scalar> Dynamics<T> {
     #[inline]
     fn in_front(&mut self) -> &mut Interpreted<T> {
         let compiled = &mut self.modes[self.current];
-        match self.selected {
+        match compiled.held.selected {
             Some(Part::Outputs) => compiled.outputs(),
             Some(Part::Solution) | None => compiled.parts().2,
         }
@@ -358,7 +359,8 @@ impl<T: Scalar> Dynamics<T> {
         if self.given {
             return;
         }
-        if self.selected.is_none() {
+        self.hold();
+        if self.compiled().held.selected.is_none() {
             self.select_outputs();
         }
         let inputs = core::mem::take(&mut self.inputs);
