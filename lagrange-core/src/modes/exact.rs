@@ -88,6 +88,12 @@ pub fn limit<T: Scalar>(f: usize, mode: &Mode, dynamics: &Dynamics<T>) -> T {
     dynamics.motion(coefficient) * normal(f, mode, dynamics)
 }
 
+/// μk N.
+pub fn kinetic_limit<T: Scalar>(f: usize, mode: &Mode, dynamics: &Dynamics<T>) -> T {
+    let coefficient = dynamics.description().frictions[f].kinetic_coefficient;
+    dynamics.motion(coefficient) * normal(f, mode, dynamics)
+}
+
 /// Normal force of friction `f`.
 fn normal<T: Scalar>(f: usize, mode: &Mode, dynamics: &Dynamics<T>) -> T {
     let d = dynamics.description();

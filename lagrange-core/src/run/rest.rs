@@ -14,6 +14,7 @@ use crate::error::Error;
 use crate::mode::{Direction, FrictionMode, Sliding};
 use crate::modes::exact;
 use crate::modes::guard::{self, Guard};
+use crate::system::ValueRef;
 use crate::trajectory::State;
 
 /// What may still change until rest, in units of the tolerance.
@@ -26,6 +27,10 @@ const NOTHING: f64 = 1e-13;
 const ROUNDING: f64 = 1e-15;
 /// and forces by so many times that of its direction.
 const BLUR: f64 = 16.0;
+/// A slip of so many errors of what it is made of is lost among them.
+const ERRORS: f64 = 2.0;
+/// Friction that is below its limit by so many tolerances holds.
+const CLEAR: f64 = 100.0;
 /// Other methods leave a step to Taylor series if it would be longer than this part of the time to rest.
 const NEAR: f64 = 0.5;
 
@@ -102,7 +107,7 @@ impl<T: Scalar> Run<T> {
             }
         }
         if self.locator.rests.is_empty() {
-            return false;
+            return self.slips_rest_within_errors();
         }
         let left = self
             .locator
@@ -126,6 +131,82 @@ impl<T: Scalar> Run<T> {
         self.exact_rest(T::from_f64(back));
         (self.now.valued, self.now.series) = (false, Progress::None);
         true
+    }
+
+    /// Whether slips no larger than the errors of the velocities that make them come to rest now, because friction takes more away than
+    /// there is to hold. Where it is hardly more, the direction of a slip follows the forces in a time that is far shorter than its fall: steps
+    /// are bounded by stability, and each leaves a slip of the size of its error.
+    fn slips_rest_within_errors(&mut self) -> bool {
+        let d = self.description();
+        let State { q, v, .. } = &self.now.state;
+        let frictions = 0..d.frictions.len();
+        if self.now.mode.has_incipient_slip() || !frictions.clone().any(|f| self.turns(f)) {
+            return false;
+        }
+        self.dynamics.tape(self.now.t, q, v);
+        for f in frictions {
+            if self.turns(f) && self.is_within_errors(f) && !guard::fades(f, &self.dynamics) {
+                self.locator.fallen.push(Guard::Slip(f));
+                self.locator.rests.push(Rest {
+                    friction: f,
+                    along: self.dynamics.slip_direction(f).map(|x| x.value()),
+                    left: 0.0,
+                    slope: 0.0,
+                });
+            }
+        }
+        self.now.valued = false;
+        if self.locator.rests.is_empty() {
+            return false;
+        }
+        let held = self.are_held();
+        self.dynamics.set_mode(&self.now.mode);
+        self.ask_for_guards();
+        if !held {
+            self.locator.fallen.clear();
+            self.locator.rests.clear();
+        }
+        held
+    }
+
+    /// Whether a slip of two components, at the state of the last tape, is lost among the errors of the velocities.
+    fn is_within_errors(&self, f: usize) -> bool {
+        let row = self.description().frictions[f].row;
+        let error = |row: usize| {
+            let terms = self.description().rows[row].jacobian.iter();
+            let error = |&(j, place): &(usize, ValueRef)| {
+                let size = self.now.state.v[j].value().abs();
+                self.dynamics.motion(place).value().abs() * self.settings.allowed(j, size)
+            };
+            terms.map(error).sum::<f64>()
+        };
+        let slip = self.dynamics.slip(f).map(|s| s.value());
+        slip[0].hypot(slip[1]) <= ERRORS * error(row).hypot(error(row + 1))
+    }
+
+    /// Whether what is listed in `rests` would stay at rest by less friction than it slips with. Leaves `dynamics` in the mode in which it
+    /// does.
+    fn are_held(&mut self) -> bool {
+        let d = self.description();
+        let mode = &mut self.locator.resting;
+        mode.clone_from(&self.now.mode);
+        for rest in &self.locator.rests {
+            mode.frictions[rest.friction] = FrictionMode::Stick;
+        }
+        self.dynamics.set_mode(mode);
+        self.dynamics.set_extra_needs(&self.switcher.status.needs);
+        let State { q, v, .. } = &self.now.state;
+        if self.dynamics.value(self.now.t, q, v).is_err() {
+            return false;
+        }
+        let clear = (CLEAR * self.settings.tolerance).clamp(ROUNDING, 1.0);
+        self.locator.rests.iter().all(|rest| {
+            let f = rest.friction;
+            let row = d.frictions[f].row;
+            let [a, b] = [row, row + 1].map(|row| self.dynamics.force(row).value());
+            let limit = exact::kinetic_limit(f, &self.locator.resting, &self.dynamics);
+            a.hypot(b) < (1.0 - clear) * limit.value()
+        })
     }
 
     /// Where a step would be too short for time to resolve: whether slips that turn have all but vanished, so that they come to rest here. They are then

@@ -50,3 +50,6 @@ impl Context {
         Context { reach, what }
     }
 }
+
+/// What a named start says.
+pub(super) const START: Context = Context::new(Reach::Parameters, "a start");

@@ -10,8 +10,8 @@
 //! (Whittaker, Analytical Dynamics, 1904, §§8–16.)
 
 use super::Start;
+use super::depth::START;
 use super::elaboration::Elaboration;
-use super::starts::START;
 use super::value::{cross, dot};
 use crate::ast::{Name, StartValue};
 use crate::diagnostics::{Code, nearest};

@@ -2,15 +2,13 @@
 //! are [oriented](super::oriented).
 
 use super::Start;
-use super::depth::{Context, Reach};
+use super::depth::START;
 use super::elaboration::Elaboration;
 use super::oriented::Oriented;
 use super::value::Value;
 use crate::ast::{self, Element, Index, Name, StartQuantity, StartValue};
 use crate::diagnostics::Code;
 use crate::symbolic::ExprId;
-
-pub(super) const START: Context = Context::new(Reach::Parameters, "a start");
 
 impl Elaboration<'_> {
     pub fn start(&mut self, declared: &ast::Start) {

@@ -50,6 +50,7 @@ mod onset;
 mod oriented;
 mod pads;
 mod parameters;
+mod peg;
 mod pendulum;
 mod permuted;
 mod piecewise;
