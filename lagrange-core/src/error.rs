@@ -24,7 +24,8 @@ pub enum Error {
         time: f64,
         /// The coordinate, contact, friction or field.
         item: &'static str,
-        /// What the number is: `value` (of a field), `inertia`, `restitution`, `static friction`, `kinetic friction`.
+        /// What the number is: `value` (of a field), `inertia`, `restitution`, `static friction`, `kinetic friction`, `position at the start`,
+        /// `velocity at the start`.
         what: &'static str,
         /// The number.
         value: f64,

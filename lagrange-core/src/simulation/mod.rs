@@ -356,21 +356,6 @@ impl Settings {
             });
         }
         start.check_dimension(n)?;
-        let numbers = start.q.iter().chain(&start.v);
-        for (i, x) in numbers.enumerate() {
-            if !x.value().is_finite() {
-                let what = if i < n {
-                    "a position of the start"
-                } else {
-                    "a velocity of the start"
-                };
-                return Err(Error::Argument {
-                    what,
-                    value: x.value(),
-                    expected: "finite",
-                });
-            }
-        }
         for (i, parameter) in d.parameters.iter().enumerate() {
             let value = system.parameter(i).value();
             if !value.is_finite() {
@@ -378,6 +363,22 @@ impl Settings {
                     what: parameter.name,
                     value,
                     expected: "finite",
+                });
+            }
+        }
+        for (what, numbers) in [
+            ("position at the start", &start.q),
+            ("velocity at the start", &start.v),
+        ] {
+            let mut numbers = numbers.iter().map(|x| x.value()).enumerate();
+            if let Some((i, value)) = numbers.find(|(_, x)| !x.is_finite()) {
+                return Err(Error::Domain {
+                    time: span.start,
+                    item: d.coordinates[i].name,
+                    what,
+                    value,
+                    expected: "finite".to_owned(),
+                    fields: Vec::new(),
                 });
             }
         }

@@ -35,7 +35,7 @@ fn explained(scene: &dyn Scene, request: &Request, error: &Error, told: String) 
     let place = place.map_or(String::new(), |place| format!("{place}: "));
     // Where a message names the number itself there is nothing to look for.
     let cause = match error {
-        Error::Domain { .. } => None,
+        Error::Domain { fields, .. } if !fields.is_empty() => None,
         _ => cause(scene, request),
     };
     let cause = cause.map_or(String::new(), |cause| format!("; {cause}"));
@@ -99,9 +99,9 @@ mod tests {
     use super::*;
 
     fn said(set: &[(&str, f64)], start: &[(&str, f64)]) -> String {
-        let declared = "parameters(mass = 1, gravity = 9.81,\n h = 0),\ncoordinates(y, z),\n\
+        let declared = "parameters(mass = 1, gravity = 9.81,\n h = 0, top = 0),\ncoordinates(y, z),\n\
             kinetic = mass/2 * der(y)^2 + der(z)^2/2, potential = mass * gravity * y,\n\
-            contact(floor: y >= h, restitution = 0),\nstart(up: y = 1), until = 0.1,";
+            contact(floor: y >= h, restitution = 0),\nstart(up: y = 1, z = sqrt(top)), until = 0.1,";
         let scene = crate::file::scene("fall.lagrange", declared).expect("a declaration");
         let own = |list: &[(&str, f64)]| list.iter().map(|(n, x)| ((*n).to_owned(), *x)).collect();
         let request = Request {
@@ -123,6 +123,11 @@ mod tests {
                 said(&[("gravity", 3.0), ("mass", 0.0)], &[]),
                 "fall.lagrange:3:13: t = 0",
                 "; the cause is `mass` = 0 (fall.lagrange:1:12): with 1 the motion can begin",
+            ),
+            (
+                said(&[("top", -1.0)], &[]),
+                "fall.lagrange:3:16: t = 0: `z`: position at the start = NaN; it must be finite",
+                "; the cause is `top` = -1 (fall.lagrange:2:9): with 0 the motion can begin",
             ),
             (
                 said(&[("h", 2.0)], &[]),

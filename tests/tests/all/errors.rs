@@ -115,7 +115,11 @@ fn arguments_are_checked() {
     ));
     assert!(matches!(
         fails(State::new(vec![1.0, f64::NAN], vec![0.0; 2]), 0.0..1.0),
-        Error::Argument { .. }
+        Error::Domain {
+            item: "theta",
+            what: "position at the start",
+            ..
+        }
     ));
     assert!(matches!(
         fails(good(), 1.0..0.0),

@@ -197,7 +197,7 @@ fn starts_that_make_no_sense_are_refused() {
         assert!(
             matches!(
                 error,
-                Error::Argument { .. }
+                Error::Domain { .. }
                     | Error::Dimension { .. }
                     | Error::Start { .. }
                     | Error::Penetrates { .. }
