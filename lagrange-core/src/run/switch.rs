@@ -83,6 +83,7 @@ impl<T: Scalar> Switcher<T> {
         self.train.restart();
         self.redundant.clear();
         self.stuck.clear();
+        self.decider.restart();
     }
 }
 

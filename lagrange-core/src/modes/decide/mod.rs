@@ -132,6 +132,11 @@ impl<T: Scalar> Decider<T> {
         }
     }
 
+    /// Forgets the state at hand.
+    pub fn restart(&mut self) {
+        self.sized = false;
+    }
+
     /// Finds the mode in which the motion goes on, into [`Self::decision`].
     ///
     /// On success `dynamics` is left in that mode. Where a few modes are possible all are looked at; the order of preference among
@@ -148,6 +153,8 @@ impl<T: Scalar> Decider<T> {
     ) -> Result<(), Error> {
         let d = dynamics.description();
         let time = here.moment.t.value();
+        // Those of the mode that ends, taken for the residue, serve if the state is the same.
+        self.sized &= !here.facts.jumped;
         let refused = match self.decide_with(dynamics, table, here) {
             Ok(true) => None,
             Ok(false) => Some(self.no_mode(dynamics, here)),
@@ -176,7 +183,7 @@ impl<T: Scalar> Decider<T> {
     ) -> Result<bool, EvaluationError> {
         let mut listings = core::mem::take(&mut self.listings);
         let scratch = &mut self.decision.mode;
-        (self.tried, self.sized) = (0, false);
+        self.tried = 0;
         let listed = listings.list(dynamics, here, &self.rows, scratch);
         let mut outcome = self.search(dynamics, table, here, listed);
         if !matches!(outcome, Ok(true)) {
@@ -291,7 +298,8 @@ impl<T: Scalar> Decider<T> {
     pub fn residue(&mut self, dynamics: &mut Dynamics<T>, mode: &Mode, located: &[Guard]) -> f64 {
         let forces = located.iter().filter(|guard| guard.is_single_force());
         let mut forces = forces.peekable();
-        if forces.peek().is_some() {
+        self.sized = forces.peek().is_some();
+        if self.sized {
             dynamics.complete_outputs();
             self.sizes.take(dynamics);
         }
@@ -307,6 +315,7 @@ impl<T: Scalar> Decider<T> {
     pub fn force(&mut self, dynamics: &mut Dynamics<T>, mode: &Mode, guard: Guard) -> (f64, f64) {
         dynamics.complete_outputs();
         self.sizes.take(dynamics);
+        self.sized = false;
         let reading = Reading::Values(dynamics);
         let value = guard::value(guard, mode, &reading);
         (value, self.sizes.of(guard, dynamics))
