@@ -27,7 +27,7 @@ impl<T: Scalar> Run<T> {
             _ => self
                 .domain_left()
                 .or_else(|| self.steps_too_long())
-                .or_else(|| self.extremal_constraint())
+                .or_else(|| self.extremal_constraint(&error))
                 .unwrap_or_else(|| self.overflow(error)),
         }
     }

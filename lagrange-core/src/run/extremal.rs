@@ -20,19 +20,35 @@ const DIRECTIONS: usize = 24;
 /// What is left of a residual below this share of its terms is what projections leave; a repeated condition leaves no more.
 const LEFT: f64 = 1e-11;
 
+/// A constraint that is extremal at the start is farther from holding around it by this factor.
+const FARTHER: f64 = 2.0;
+
 impl<T: Scalar> Run<T> {
-    /// The error that names a constraint which is extremal at the start, if there is one.
-    pub(super) fn extremal_constraint(&mut self) -> Option<Error> {
+    /// The error that names a constraint which is extremal at the start, if that is why the motion came to this `error`.
+    pub(super) fn extremal_constraint(&mut self, error: &Error) -> Option<Error> {
         let d = self.description();
         let (all, time) = (self.settings.effects.clone(), self.begin);
+        let is_named = |name: &str| match error {
+            Error::Singular { items, .. } => items.contains(&name),
+            Error::Projection { item, .. } => *item == name,
+            // A distance that is zero has no derivative at all.
+            Error::NotFinite { time, .. } => *time == self.begin,
+            _ => false,
+        };
         let suspects = (0..d.constraints.len()).filter(|&i| {
             let constraint = &d.constraints[i];
             let of_positions = d.rows[constraint.row].position.is_some();
-            of_positions && constraint.attitude.is_none() && all.includes(d, Item::Constraint(i))
+            is_named(constraint.name)
+                && of_positions
+                && constraint.attitude.is_none()
+                && all.includes(d, Item::Constraint(i))
         });
+        let suspects: Vec<usize> = suspects.collect();
+        if suspects.is_empty() {
+            return None;
+        }
         let mut whole = Dynamics::of(self.dynamics.system().clone(), &all);
         whole.set_extra_needs(&guard::all_row_needs(d, whole.motion_needs()));
-        let suspects: Vec<usize> = suspects.collect();
         let found = suspects
             .into_iter()
             .find(|&i| self.is_extremal(&mut whole, i))?;
@@ -58,6 +74,9 @@ impl<T: Scalar> Run<T> {
         let others = effects.without(Item::Constraint(i));
         let mut others = Dynamics::of(self.dynamics.system().clone(), &others);
         let (t, start) = (T::from_f64(self.begin), &self.recorder.trajectory.start);
+        // It has to hold at the start.
+        whole.tape(t, &start.q, &start.v);
+        let here = whole.motion(place).value().abs();
         let (mut lowest, mut highest) = (0.0_f64, 0.0_f64);
         let mut random = fastrand::Rng::with_seed(i as u64);
         for _ in 0..DIRECTIONS {
@@ -74,11 +93,11 @@ impl<T: Scalar> Run<T> {
                 .jacobian
                 .iter()
                 .map(|&(j, place)| whole.motion(place).value().abs() * q[j].value().abs().max(1.0));
-            let relative = whole.motion(place).value() / terms.sum::<f64>();
-            if !(relative.abs() > LEFT) {
+            let residual = whole.motion(place).value();
+            if !(residual.abs() > LEFT * terms.sum::<f64>() + FARTHER * here) {
                 return false;
             }
-            (lowest, highest) = (lowest.min(relative), highest.max(relative));
+            (lowest, highest) = (lowest.min(residual), highest.max(residual));
         }
         (lowest < 0.0) != (highest > 0.0)
     }

@@ -266,11 +266,9 @@ impl<T: Scalar> Run<T> {
         self.recorder.awaited.clone_from(&self.settings.last_events);
         (self.recorder.events_before, self.recorder.finished) = (0, false);
         let begun = self.enter_start().and_then(|()| self.settle());
-        begun.map_err(|error| match error {
-            Error::Singular { .. } | Error::NotFinite { .. } => self
-                .extremal_constraint()
-                .unwrap_or_else(|| self.overflow(error)),
-            error => error,
+        begun.map_err(|error| {
+            let extremal = self.extremal_constraint(&error);
+            extremal.unwrap_or_else(|| self.overflow(error))
         })?;
         self.begin_sides();
         self.recorder.finished |= self.has_seen_all();

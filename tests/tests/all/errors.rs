@@ -762,6 +762,16 @@ fn a_constraint_that_is_extremal_where_it_holds_is_named() {
     let run = Simulation::new(&scene).run(scene.at(Bearing::FITS), 0.0..1.0);
     named(&run.expect_err("no torque"), "axle");
 
+    // A start that is far from the constraint says nothing about it.
+    let start = State::new(vec![3.0, 1.0], vec![0.0; 2]);
+    let failure = Simulation::new(&Squared { weight: 9.81 })
+        .run(start, 0.0..1.0)
+        .expect_err("off the constraint");
+    assert!(
+        !failure.to_string().contains("smallest or largest"),
+        "{failure}"
+    );
+
     // Without the bearing, two lines that cross are no extremum: there are both signs around.
     let simulation = Simulation::new(&scene).effects(Effects::all().without(Bearing::AXLE));
     let run = simulation.run(scene.at(Bearing::FITS), 0.0..1.0);
