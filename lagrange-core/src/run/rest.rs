@@ -135,12 +135,14 @@ impl<T: Scalar> Run<T> {
 
     /// Whether slips no larger than the errors of the velocities that make them come to rest now, because friction takes more away than
     /// there is to hold. Where it is hardly more, the direction of a slip follows the forces in a time that is far shorter than its fall: steps
-    /// are bounded by stability, and each leaves a slip of the size of its error.
+    /// are bounded by stability, and each leaves a slip of the size of its error. An instant that errors choose has no derivatives, so where
+    /// these are asked for the steps go on.
     fn slips_rest_within_errors(&mut self) -> bool {
         let d = self.description();
         let State { q, v, .. } = &self.now.state;
         let frictions = 0..d.frictions.len();
-        if self.now.mode.has_incipient_slip() || !frictions.clone().any(|f| self.turns(f)) {
+        let may_turn = frictions.clone().any(|f| self.turns(f));
+        if T::DERIVATIVES > 0 || self.now.mode.has_incipient_slip() || !may_turn {
             return false;
         }
         self.dynamics.tape(self.now.t, q, v);
@@ -155,10 +157,10 @@ impl<T: Scalar> Run<T> {
                 });
             }
         }
-        self.now.valued = false;
         if self.locator.rests.is_empty() {
             return false;
         }
+        self.now.valued = false;
         let held = self.are_held();
         self.dynamics.set_mode(&self.now.mode);
         self.ask_for_guards();
