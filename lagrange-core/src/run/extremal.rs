@@ -74,8 +74,12 @@ impl<T: Scalar> Run<T> {
         let others = effects.without(Item::Constraint(i));
         let mut others = Dynamics::of(self.dynamics.system().clone(), &others);
         let (t, start) = (T::from_f64(self.begin), &self.recorder.trajectory.start);
-        // It has to hold at the start.
-        whole.tape(t, &start.q, &start.v);
+        // It has to hold at the start, where the others do.
+        let (mut q, mut v) = (start.q.clone(), start.v.clone());
+        if others.project(t, &mut q, &mut v, 0.0).is_err() {
+            return false;
+        }
+        whole.tape(t, &q, &v);
         let here = whole.motion(place).value().abs();
         let (mut lowest, mut highest) = (0.0_f64, 0.0_f64);
         let mut random = fastrand::Rng::with_seed(i as u64);
