@@ -5,7 +5,7 @@ use super::output_mask::OutputMask;
 use crate::system::Description;
 
 /// What is held in one mode. It stays while the motion is in other modes, and is made anew where something else is asked for.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Held {
     /// What was asked for beside the equations of motion,
     extra: OutputMask,

@@ -148,13 +148,7 @@ impl<T: Scalar> Run<T> {
         self.dynamics.tape(self.now.t, q, v);
         for f in frictions {
             if self.turns(f) && self.is_within_errors(f) && !guard::fades(f, &self.dynamics) {
-                self.locator.fallen.push(Guard::Slip(f));
-                self.locator.rests.push(Rest {
-                    friction: f,
-                    along: self.dynamics.slip_direction(f).map(|x| x.value()),
-                    left: 0.0,
-                    slope: 0.0,
-                });
+                self.rest_as_it_is(f);
             }
         }
         if self.locator.rests.is_empty() {
@@ -343,6 +337,17 @@ impl<T: Scalar> Run<T> {
         self.ask_for_guards();
     }
 
+    /// Adds a slip to `rests` that ends at the state of the last tape, in the direction that it has.
+    fn rest_as_it_is(&mut self, f: usize) {
+        self.locator.fallen.push(Guard::Slip(f));
+        self.locator.rests.push(Rest {
+            friction: f,
+            along: self.dynamics.slip_direction(f).map(|x| x.value()),
+            left: 0.0,
+            slope: 0.0,
+        });
+    }
+
     /// Adds to `rests` the other slips that are no larger than rounding of what makes them, at the state of the last tape.
     fn rest_what_has_vanished(&mut self) {
         for f in 0..self.description().frictions.len() {
@@ -354,13 +359,7 @@ impl<T: Scalar> Run<T> {
             }
             let slip = self.dynamics.slip(f).map(|s| s.value());
             if slip[0].hypot(slip[1]) <= NOTHING * self.dynamics.slip_size(f, &self.now.state.v) {
-                self.locator.fallen.push(Guard::Slip(f));
-                self.locator.rests.push(Rest {
-                    friction: f,
-                    along: self.dynamics.slip_direction(f).map(|x| x.value()),
-                    left: 0.0,
-                    slope: 0.0,
-                });
+                self.rest_as_it_is(f);
             }
         }
     }
