@@ -9,7 +9,7 @@ use super::output_mask::{self, OutputMask};
 use crate::arithmetic::Scalar;
 use crate::effects::Effects;
 use crate::equations::Arguments;
-use crate::linear::{KktPattern, Solver, acting};
+use crate::linear::{KktPattern, Solver, UnitQuaternion, acting};
 use crate::mode::Mode;
 use crate::system::{Description, ErasedSystem, Selection};
 
@@ -120,16 +120,21 @@ impl<T: Scalar> Compiled<T> {
         if !self.pattern.is_like(&self.spare) {
             self.interpreted.list.clear();
             self.held.selected = None;
-            self.solver
-                .reserve(self.pattern.free(), self.pattern.kept.len());
-            let free = &self.pattern.elimination.free;
-            let place = |j: usize| free.iter().position(|&free| free == j);
-            let firsts = d.constraints.iter().filter_map(|c| c.attitude);
-            let quaternions = firsts.filter_map(|first| {
-                let [a, b, c, d] = [0, 1, 2, 3].map(|k| place(first + k));
-                Some([a?, b?, c?, d?])
+            let KktPattern {
+                elimination, kept, ..
+            } = &self.pattern;
+            let place = |j: usize| elimination.free.iter().position(|&free| free == j);
+            let quaternions = d.constraints.iter().filter_map(|c| {
+                let first = c.attitude?;
+                let [w, x, y, z] = [0, 1, 2, 3].map(|k| place(first + k));
+                let row = kept.iter().position(|&row| row == c.row)?;
+                Some(UnitQuaternion {
+                    coordinates: [w?, x?, y?, z?],
+                    row: elimination.free.len() + row,
+                })
             });
             self.solver.set_quaternions(quaternions);
+            self.solver.reserve(elimination.free.len(), kept.len());
         }
     }
 

@@ -33,7 +33,9 @@ impl<T: Scalar> Equilibrated<T> {
             (0..size).for_each(|i| matrix[i * size + j] *= T::from_f64(scale));
             self.column_scale.push(scale);
         }
-        self.lu.factor(size, matrix.iter().copied());
+        self.lu.factor(size, |i, row| {
+            row.copy_from_slice(&matrix[i * size..][..size])
+        });
     }
 
     /// Whether rows depend on each other.
@@ -87,7 +89,9 @@ impl SeveralSides {
             (0..size).for_each(|i| matrix[i * size + j] *= *scale);
         }
         let mut lu = Lu::default();
-        lu.factor(size, matrix.into_iter());
+        lu.factor(size, |i, row| {
+            row.copy_from_slice(&matrix[i * size..][..size])
+        });
         Self {
             row_scale,
             column_scale,

@@ -71,11 +71,17 @@ pub(crate) fn least_norm<T: Scalar>(
         })
         .collect();
     let mut lu = Lu::default();
-    let padded = (0..wide * wide).map(|at| match (at / wide, at % wide) {
-        (i, j) if i < n && j < m => scales[j] * element(i, j),
-        _ => T::zero(),
+    lu.factor(wide, |i, row| {
+        if i < n {
+            let scaled = scales
+                .iter()
+                .enumerate()
+                .map(|(j, &scale)| scale * element(i, j));
+            row.iter_mut()
+                .zip(scaled)
+                .for_each(|(x, scaled)| *x = scaled);
+        }
     });
-    lu.factor(wide, padded);
     // Each row of the basis with its square.
     let mut basis: Vec<(Vec<T>, T)> = Vec::with_capacity(n);
     for i in lu.independent_rows().take(rank) {

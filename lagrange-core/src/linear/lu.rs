@@ -123,9 +123,9 @@ impl<T: Scalar> Lu<T> {
         }
     }
 
-    /// Factors the row-major `matrix`; stops at the rank. Pivots are found in the whole remaining block.
-    pub(crate) fn factor(&mut self, size: usize, matrix: impl Iterator<Item = T>) {
-        self.factor_to((negligible::<T>(), size), size, matrix);
+    /// Factors the matrix whose rows `write` writes, each into zeros; stops at the rank. Pivots are found in the whole remaining block.
+    pub(crate) fn factor(&mut self, size: usize, write: impl FnMut(usize, &mut [T])) {
+        self.factor_to((negligible::<T>(), size), size, write);
     }
 
     /// [`Self::factor`] where pivots up to `least` are dependence, and those after the first `most` too.
@@ -133,11 +133,13 @@ impl<T: Scalar> Lu<T> {
         &mut self,
         (least, most): (f64, usize),
         size: usize,
-        matrix: impl Iterator<Item = T>,
+        mut write: impl FnMut(usize, &mut [T]),
     ) {
         self.size = size;
         self.factors.clear();
-        self.factors.extend(matrix);
+        self.factors.resize(size * size, T::zero());
+        let rows = self.factors.chunks_exact_mut(size.max(1));
+        rows.enumerate().for_each(|(i, row)| write(i, row));
         self.rows.clear();
         self.rows.extend(0..size);
         self.columns.clear();

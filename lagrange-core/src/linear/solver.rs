@@ -74,6 +74,13 @@ enum Factors {
     Held,
 }
 
+/// Four coordinates, and the row that keeps them at unit length.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct UnitQuaternion {
+    pub(crate) coordinates: [usize; 4],
+    pub(crate) row: usize,
+}
+
 /// A factored system; the memory is reused.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Solver<T> {
@@ -83,8 +90,11 @@ pub(crate) struct Solver<T> {
     scale: Vec<f64>,
     /// Coordinates with hardly any inertia beside the others.
     light: Vec<bool>,
-    /// Coordinates of unit quaternions.
-    quaternions: Vec<[usize; 4]>,
+    quaternions: Vec<UnitQuaternion>,
+    /// The matrix with Σ κ aᵀ a of the rows that keep quaternions at unit length,
+    augmented: Vec<T>,
+    /// and these κ; none where it is not used.
+    weights: Vec<T>,
     factors: Factors,
     direct: Direct<T>,
     lu: Lu<T>,
@@ -122,11 +132,14 @@ impl<T: Scalar> Solver<T> {
         self.work.reserve(size);
         self.direct.reserve(size);
         self.lu.reserve(size);
+        if !self.quaternions.is_empty() {
+            self.augmented.reserve(size * size);
+        }
     }
 
-    /// Says which coordinates are those of unit quaternions: they are of one kind, and have one scale. Close to an attitude in which one element is 1 this
-    /// has no inertia of its own.
-    pub(crate) fn set_quaternions(&mut self, quaternions: impl Iterator<Item = [usize; 4]>) {
+    /// Says which unknowns and equations are those of unit quaternions: their coordinates are of one kind, and have one scale. Close to an attitude in
+    /// which one element is 1 this has no inertia of its own.
+    pub(crate) fn set_quaternions(&mut self, quaternions: impl Iterator<Item = UnitQuaternion>) {
         self.quaternions.clear();
         self.quaternions.extend(quaternions);
     }
@@ -192,11 +205,16 @@ impl<T: Scalar> Solver<T> {
         }
         self.holds = false;
         self.aside.clear();
+        self.augment(inertia);
         let leading = match inertia {
             Inertia::Symmetric => self.coordinates,
             Inertia::General => 0,
         };
-        if self.direct.factor(leading, self.size, &self.matrix) {
+        let matrix = match self.weights.is_empty() {
+            true => &self.matrix,
+            false => &self.augmented,
+        };
+        if self.direct.factor(leading, self.size, matrix) {
             self.factors = Factors::Direct;
             return Ok(());
         }
@@ -235,13 +253,39 @@ impl<T: Scalar> Solver<T> {
         }
     }
 
+    /// Adds κ aᵀ (a v̇ + γ), which vanishes, to the equations of quaternions, whose inertia is singular along themselves: it is positive definite then, and
+    /// the solution stays, forces included (augmented Lagrangian; Hestenes 1969, J. Optim. Theory Appl. 4, 303). κ = tr M / 12 makes that of a ball
+    /// a multiple of 1.
+    fn augment(&mut self, inertia: Inertia) {
+        self.weights.clear();
+        if inertia == Inertia::General || self.quaternions.is_empty() {
+            return;
+        }
+        self.augmented.clone_from(&self.matrix);
+        let size = self.size;
+        for &UnitQuaternion { coordinates, row } in &self.quaternions {
+            let trace = coordinates
+                .iter()
+                .fold(T::zero(), |sum, &j| sum + self.matrix[j * size + j]);
+            let weight = trace / T::from_f64(12.0);
+            let a = &self.matrix[row * size..];
+            for i in coordinates {
+                for j in coordinates {
+                    self.augmented[i * size + j] += weight * a[i] * a[j];
+                }
+            }
+            self.weights.push(weight);
+        }
+    }
+
     fn equilibrate(&mut self) {
         let (n, size) = (self.coordinates, self.size);
         self.find_light();
         self.scale.clear();
         let inertia = |j: usize| self.matrix[j * size + j].value().abs();
         for j in 0..n {
-            let of = self.quaternions.iter().find(|of| of.contains(&j));
+            let quaternions = self.quaternions.iter().map(|of| of.coordinates);
+            let of = { quaternions }.find(|of| of.contains(&j));
             let largest = of.map(|of| of.map(inertia).into_iter().fold(0.0, f64::max));
             let inertia = largest.unwrap_or_else(|| inertia(j));
             self.scale
@@ -298,22 +342,26 @@ impl<T: Scalar> Solver<T> {
         let (n, size) = (self.coordinates, self.size);
         let (matrix, scale, aside) = (&self.matrix, &self.scale, &self.aside);
         let shares = &self.shares;
-        let out = |i: usize| i >= n && aside[i - n];
-        let element = |i: usize, j: usize| {
-            if out(i) && shared && j >= n {
-                shares[(i - n) * (size - n) + j - n]
-            } else if out(i) || (out(j) && !shared) {
-                if i == j { T::one() } else { T::zero() }
-            } else {
-                matrix[i * size + j] * T::from_f64(scale[i] * scale[j])
+        let has_aside = aside.contains(&true);
+        self.lu.factor(size, |i, row| {
+            if i >= n && aside[i - n] {
+                match shared {
+                    true => row[n..].copy_from_slice(&shares[(i - n) * (size - n)..][..size - n]),
+                    false => row[i] = T::one(),
+                }
+                return;
             }
-        };
-        self.lu.factor(
-            size,
-            (0..size)
-                .flat_map(|i| (0..size).map(move |j| (i, j)))
-                .map(|(i, j)| element(i, j)),
-        );
+            let elements = matrix[i * size..][..size].iter().zip(scale);
+            for (x, (&element, by)) in row.iter_mut().zip(elements) {
+                *x = element * T::from_f64(scale[i] * by);
+            }
+            if has_aside && !shared {
+                let forces = row[n..].iter_mut().zip(aside);
+                forces
+                    .filter(|(_, aside)| **aside)
+                    .for_each(|(x, _)| *x = T::zero());
+            }
+        });
     }
 
     /// How rows that depend on one another share their load: as equal springs below a rigid body do, whose forces are in proportion to
@@ -392,28 +440,29 @@ impl<T: Scalar> Solver<T> {
         // Square with zeros, so that the same factorization serves.
         let wide = n.max(rows);
         let (matrix, scale) = (&self.matrix, &self.scale);
-        let element = |i: usize, j: usize| {
-            if i < rows && j < n {
-                let scale = scale[n + i] * scale[j] * weights[i];
-                matrix[(n + i) * size + j] * T::from_f64(scale)
-            } else {
-                T::zero()
+        self.lu.factor_to(limits, wide, |i, row| {
+            if i < rows {
+                let elements = matrix[(n + i) * size..][..n].iter().zip(scale);
+                for (x, (&element, by)) in row.iter_mut().zip(elements) {
+                    *x = element * T::from_f64(scale[n + i] * by * weights[i]);
+                }
             }
-        };
-        self.lu.factor_to(
-            limits,
-            wide,
-            (0..wide)
-                .flat_map(|i| (0..wide).map(move |j| (i, j)))
-                .map(|(i, j)| element(i, j)),
-        );
+        });
     }
 
     /// Replaces the right-hand side by the solution.
     #[inline]
     pub(crate) fn solve(&mut self, b: &mut [T]) {
         match self.factors {
-            Factors::Direct => self.direct.solve(b),
+            Factors::Direct => {
+                for (of, &weight) in self.quaternions.iter().zip(&self.weights) {
+                    let load = weight * b[of.row];
+                    for j in of.coordinates {
+                        b[j] += self.matrix[of.row * self.size + j] * load;
+                    }
+                }
+                self.direct.solve(b);
+            }
             Factors::Complete | Factors::Held => self.solve_complete(b),
         }
     }

@@ -19,6 +19,10 @@ use core::f64::consts::TAU;
 const TRIES: usize = 16;
 /// Step of differences between angles.
 const SMALL: f64 = 1e-6;
+/// Changes as small as this shrink fast in Newton's method, until rounding is left: what is
+const SETTLED: f64 = 1e-5;
+/// more than this share of the change before it changes no more.
+const STEADY: f64 = 0.9;
 /// Iterations that make a direction exact.
 const MOST_ITERATIONS: usize = 60;
 /// ṡ·u below this share of the largest ṡ, or of what frictions do to it, is not positive, nor negative,
@@ -284,6 +288,7 @@ impl Beginning {
             }
         }
         let mut open = VanishingCombinations::default();
+        let mut before = f64::INFINITY;
         for _ in 0..MOST_ITERATIONS {
             let (mut right, mut matrix) = self.with_changes(|beginning| {
                 let slips = begin(dynamics, moment, &beginning.frictions, &beginning.along())?;
@@ -323,9 +328,11 @@ impl Beginning {
                 *angle -= by.clamp(-1.0, 1.0);
                 largest = largest.max(by.abs());
             }
-            if largest <= 4.0 * f64::EPSILON {
+            let settled = largest <= SETTLED && largest > STEADY * before;
+            if settled || largest <= 4.0 * f64::EPSILON {
                 break;
             }
+            before = largest;
         }
         begin(dynamics, moment, &self.frictions, &self.along())?;
         let turns = || self.frictions.iter().map(|&f| frame_of(dynamics, f));
