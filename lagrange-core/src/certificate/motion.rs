@@ -64,6 +64,8 @@ pub(super) struct Examination<'a, T: Scalar> {
     last: State<f64>,
     errors: State<f64>,
     sizes: State<f64>,
+    /// The first coordinate of each attitude.
+    attitudes: Vec<usize>,
     /// Nodes and weights of the quadrature of the last step.
     nodes: Vec<(f64, f64)>,
 }
@@ -164,6 +166,7 @@ pub(super) fn against<T: Scalar>(
         last: start.clone(),
         errors: start.clone(),
         sizes: start,
+        attitudes: d.constraints.iter().filter_map(|c| c.attitude).collect(),
         nodes: Vec::new(),
     };
     let mut random = fastrand::Rng::with_seed(seed);
@@ -623,8 +626,16 @@ impl<T: Scalar> Examination<'_, T> {
         self.book(Subject::Joins, time, components);
     }
 
-    /// Books the errors of a state beside its sizes, times `factor`.
+    /// Books the errors of a state beside its sizes, times `factor`. The four coordinates of an attitude have one size: that of a unit quaternion, and of
+    /// its rate.
     fn book(&mut self, subject: Subject, time: f64, factor: f64) {
+        for sizes in [&mut self.sizes.q, &mut self.sizes.v] {
+            for first in self.attitudes.iter().copied() {
+                let four = &mut sizes[first..first + 4];
+                let size = four.iter().map(|x| x * x).sum::<f64>().sqrt();
+                four.fill(size);
+            }
+        }
         let (errors, sizes) = (&self.errors, &self.sizes);
         for [errors, sizes] in [[&errors.q, &sizes.q], [&errors.v, &sizes.v]] {
             for (i, coordinate) in self.record.description().coordinates.iter().enumerate() {

@@ -20,21 +20,40 @@ use crate::arithmetic::{Scalar, epsilon};
 pub const MAX_ORDER: usize = 28;
 const MIN_ORDER: usize = 4;
 
-/// Order for a tolerance ε and series of so many products, between 4 and [`MAX_ORDER`].
+/// What the steps of a motion cost.
+#[derive(Clone, Copy, Debug)]
+pub struct Costs {
+    /// Products of its series, of all coefficients of one order.
+    pub products: usize,
+    /// Number of coordinates.
+    pub coordinates: usize,
+    /// Number of constraints.
+    pub constraints: usize,
+}
+
+/// Order for a tolerance ε, between 4 and [`MAX_ORDER`].
 ///
 /// A step of the order p costs F + C p², and its length is proportional to ε^(1/p). The motion is cheapest where
-/// p³ = −½ ln ε (p² + F/C). C grows with the number of products; F/C is fitted to the instructions of the scenes. Series of
-/// many products have a large part that is linear in p: for them ⌈3 − 0.6 ln ε⌉ is best, and so it is above 16, where more
-/// orders gain little and the coefficients beside a singular point grow out of range.
-pub fn order(tolerance: Tolerance, products: usize) -> usize {
+/// p³ = −½ ln ε (p² + F/C). C grows with the number of products, F with the constraints, onto which each step is projected; F/C is fitted to the
+/// instructions of the scenes. Series of many products have a large part that is linear in p: for them ⌈3 − 0.6 ln ε⌉ is best, and so it is
+/// above 24, where more orders gain little and the coefficients beside a singular point grow out of range.
+pub fn order(tolerance: Tolerance, costs: Costs) -> usize {
     /// F/C of a series without products, times [`BESIDE`].
     const FIXED: f64 = 4500.0;
+    /// The same of each constraint, for each unknown of the equations.
+    const PROJECTED: f64 = 400.0;
     /// What every series costs, in products.
     const BESIDE: f64 = 8.0;
     /// More orders than for series of many products are taken up to this one.
-    const MOST_BESIDE: f64 = 16.0;
+    const MOST_BESIDE: f64 = 24.0;
     let digits = -tolerance.strictness().ln();
-    let fixed = FIXED / (BESIDE + products as f64);
+    let Costs {
+        products,
+        coordinates,
+        constraints,
+    } = costs;
+    let projected = PROJECTED * (constraints * (coordinates + constraints)) as f64;
+    let fixed = (FIXED + projected) / (BESIDE + products as f64);
     // A tolerance of 0 asks for infinitely many orders.
     let dear = |&p: &usize| {
         let p = p as f64;

@@ -10,7 +10,7 @@ use crate::arithmetic::quad::{Quad, QuadBody, side_by_side};
 use crate::arithmetic::{Scalar, epsilon};
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::error::{Error, NotFinite};
-use crate::integrate::taylor::{self, DefectControl, Verdict};
+use crate::integrate::taylor::{self, Costs, DefectControl, Verdict};
 use crate::integrate::{
     Integrator, Method, StepError, StepPolynomial, horner, onto_step, polynomial_derivative,
     powers_of,
@@ -76,8 +76,13 @@ impl<T: Scalar> Stepper<T> {
     /// Room for the steps of states like this one.
     pub(super) fn new(settings: &Settings, d: &Description, state: &State<T>) -> Self {
         let n = state.q.len();
+        let costs = Costs {
+            products: d.motion.products(),
+            coordinates: n,
+            constraints: d.constraints.len(),
+        };
         Stepper {
-            order: taylor::order(settings.per_step(), d.motion.products()),
+            order: taylor::order(settings.per_step(), costs),
             control: DefectControl::default(),
             other: Integrator::new(settings.method, n).map(Box::new),
             wanted: None,

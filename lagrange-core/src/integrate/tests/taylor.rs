@@ -4,15 +4,19 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 
 use super::problems::{Coefficients, Falling, Harmonic, Kepler, Pendulum, Problem, series};
 use super::runge_kutta::Run;
-use crate::integrate::taylor::{DefectControl, Verdict, defect, order};
+use crate::integrate::taylor::{Costs, DefectControl, Verdict, defect, order};
 use crate::integrate::{StepPolynomial, Tolerance};
 
-/// Of the series of an orbit.
-const PRODUCTS: usize = 7;
+/// Of an orbit.
+const COSTS: Costs = Costs {
+    products: 7,
+    coordinates: 2,
+    constraints: 0,
+};
 
 /// Integrates to `until` with series from the problem.
 pub fn run<P: Problem>(problem: &mut P, tolerance: Tolerance, until: f64, h_max: f64) -> Run {
-    let order = order(tolerance, PRODUCTS);
+    let order = order(tolerance, COSTS);
     let n = P::COORDINATES;
     let mut step = StepPolynomial::new(n, order);
     let (mut q, mut v) = problem.solution(0.0);
@@ -61,12 +65,22 @@ fn fill(step: &mut StepPolynomial<f64>, coefficients: &Coefficients, t: f64, h: 
 
 #[test]
 fn the_order_follows_the_digits_and_the_cost_of_a_series() {
-    let at = |tolerance, products| order(Tolerance::both(tolerance), products);
-    let few = [1e-3, 1e-6, 1e-9, 1e-12, 1e-16].map(|tolerance| at(tolerance, PRODUCTS));
-    assert_eq!(few, [12, 16, 16, 20, 26]);
-    let many = [1e-3, 1e-6, 1e-9, 1e-12, 1e-16].map(|tolerance| at(tolerance, 1000));
-    assert_eq!(many, [8, 12, 16, 20, 26]);
-    assert_eq!([at(1.0, 7), at(100.0, 7), at(0.0, 7)], [4, 4, 28]);
+    let at = |tolerance, costs| order(Tolerance::both(tolerance), costs);
+    let digits = [1e-3, 1e-6, 1e-9, 1e-12, 1e-16];
+    assert_eq!(digits.map(|t| at(t, COSTS)), [12, 16, 19, 23, 26]);
+    let many = Costs {
+        products: 1000,
+        ..COSTS
+    };
+    assert_eq!(digits.map(|t| at(t, many)), [8, 12, 16, 20, 26]);
+    // A body in space that rolls without slipping.
+    let projected = Costs {
+        products: 34,
+        coordinates: 6,
+        constraints: 3,
+    };
+    assert_eq!(digits.map(|t| at(t, projected)), [13, 17, 20, 24, 26]);
+    assert_eq!([1.0, 100.0, 0.0].map(|t| at(t, COSTS)), [4, 4, 28]);
 }
 
 #[test]
@@ -100,7 +114,7 @@ fn steps_are_not_wasted() {
     for digits in [4, 8, 12] {
         let tolerance = Tolerance::both(10f64.powi(-digits));
         let mut orbit = Kepler { eccentricity: 0.5 };
-        let order = order(tolerance, PRODUCTS);
+        let order = order(tolerance, COSTS);
         let mut step = StepPolynomial::new(2, order);
         for i in 0..12 {
             let t = 0.5 * f64::from(i);
