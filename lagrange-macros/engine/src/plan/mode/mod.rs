@@ -36,8 +36,10 @@ pub use stages::Phase;
 
 /// Systems with more operations in a mode are interpreted, unless the declaration says otherwise.
 const MOST_OPERATIONS: usize = 220;
-/// Systems with more unknowns are interpreted.
+/// Systems with more unknowns are interpreted, unless the declaration says otherwise,
 const MOST_UNKNOWNS: usize = 8;
+/// and with more than these in any case.
+const MOST_ELIMINATED: usize = 24;
 /// More modes than these are not listed.
 const MOST_MODES: usize = 16;
 
@@ -168,7 +170,11 @@ pub(super) fn programs(equations: &mut Equations) -> Vec<ModeProgram> {
     pool.fix(&signs.concat());
     let fixed = super::numbered(parameters.into_iter().chain(signs.concat()));
     let (modes, _) = modes::structures(&equations.system, MOST_MODES);
-    let unknowns: Vec<Symbol> = (0..MOST_UNKNOWNS)
+    let most = match equations.system.emit {
+        Emit::BySize => MOST_UNKNOWNS,
+        Emit::Unrolled | Emit::Loops | Emit::Data => MOST_ELIMINATED,
+    };
+    let unknowns: Vec<Symbol> = (0..most)
         .map(|i| equations.system.pool.symbol(&format!("w{i}")))
         .collect();
     modes
@@ -197,7 +203,7 @@ enum Form {
     Balance,
 }
 
-/// The program of a mode; none where numbers must decide how to solve it, or where it is too long.
+/// The program of a mode; none where numbers must decide how to solve it, where it is too long, or where it has more than these `unknowns`.
 fn specialise(
     equations: &mut Equations,
     mode: &Mode,
@@ -222,7 +228,7 @@ fn specialise(
     let reduced = reduce::reduce(equations, &balances, &acting, &known, &state)?;
     let free = reduced.free.len();
     let size = free + reduced.kept.len();
-    if size > MOST_UNKNOWNS {
+    if size > unknowns.len() {
         return None;
     }
     let mut whole = match form {

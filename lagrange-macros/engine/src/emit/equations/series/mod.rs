@@ -34,8 +34,10 @@ struct Expansion<'a> {
     crossing: BTreeSet<Value>,
 }
 
-/// Coefficients up to this order have code of their own in unrolled series; it is that of a tolerance of about 1e-13.
+/// Coefficients up to this order have code of their own in unrolled series, and later ones loops.
 const UNROLLED: usize = 21;
+/// Series of more products have loops in any case: rustc would take minutes for what no run gains from.
+const MOST_UNROLLED: usize = 100;
 
 fn sum_coefficient(output: usize) -> Ident {
     local(&format!("dsum{output}"))
@@ -69,7 +71,7 @@ pub fn implementation(
     let first = expansion.first(&elimination);
     let mut next = TokenStream::new();
     let mut looped = 1;
-    if system.emit == Emit::Unrolled {
+    if system.emit == Emit::Unrolled && plan.convolutions() <= MOST_UNROLLED {
         for k in 1..=UNROLLED {
             next.extend(expansion.order(k, &elimination));
         }
