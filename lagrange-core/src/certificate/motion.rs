@@ -536,12 +536,18 @@ impl<T: Scalar> Examination<'_, T> {
     }
 
     /// Goes through the events up to a time, when the motion goes on in the state `begin`: impacts change the state that is
-    /// expected. Of those at that very time some may come after the next step, if it does not advance the time.
+    /// expected. Of those at that very time some come after the next step, if it does not advance the time: that begins nearer to the state
+    /// expected than to what they leave.
     fn events_until(&mut self, time: f64, begin: &State<f64>, first: bool, advances: bool) {
         let record = self.record;
         while let Some(event) = record.events().get(self.events) {
             let now = event.time.value();
-            if now > time || now == time && !advances && self.is_near(begin) {
+            let comes_after = !advances && {
+                let [expected, after] = [&self.expected, &numbers(&event.state_after)]
+                    .map(|state| self.distance(begin, state));
+                expected <= after
+            };
+            if now > time || now == time && comes_after {
                 break;
             }
             let repeats = self.events > 0 && {
@@ -581,17 +587,16 @@ impl<T: Scalar> Examination<'_, T> {
         }
     }
 
-    /// Whether a state is the one that is expected.
-    fn is_near(&self, state: &State<f64>) -> bool {
+    /// How far two states are from one another, in units of their sizes.
+    fn distance(&self, a: &State<f64>, b: &State<f64>) -> f64 {
         let sizes = &self.record.asked.sizes;
-        let near = |(i, (a, b)): (usize, (&f64, &f64))| {
+        let square = |(i, (a, b)): (usize, (&f64, &f64))| {
             let size = least_size(sizes, i) + a.abs().max(b.abs());
-            (a - b).abs() <= self.findings.tolerance * size
+            ((a - b) / size).powi(2)
         };
-        let expected = &self.expected;
-        let mut positions = state.q.iter().zip(&expected.q).enumerate();
-        let mut velocities = state.v.iter().zip(&expected.v).enumerate();
-        positions.all(near) && velocities.all(near)
+        let positions = a.q.iter().zip(&b.q).enumerate();
+        let velocities = a.v.iter().zip(&b.v).enumerate();
+        positions.chain(velocities).map(square).sum()
     }
 
     /// What rounding may leave of the state at the end of a step.

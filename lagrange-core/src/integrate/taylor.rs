@@ -36,7 +36,7 @@ pub struct Costs {
 /// A step of the order p costs F + C p², and its length is proportional to ε^(1/p). The motion is cheapest where
 /// p³ = −½ ln ε (p² + F/C). C grows with the number of products, F with the constraints, onto which each step is projected; F/C is fitted to the
 /// instructions of the scenes. Series of many products have a large part that is linear in p: for them ⌈3 − 0.6 ln ε⌉ is best, and so it is
-/// above 24, where more orders gain little and the coefficients beside a singular point grow out of range.
+/// above 20, where more orders gain little and the coefficients beside a singular point grow out of range.
 pub fn order(tolerance: Tolerance, costs: Costs) -> usize {
     /// F/C of a series without products, times [`BESIDE`].
     const FIXED: f64 = 4500.0;
@@ -45,7 +45,7 @@ pub fn order(tolerance: Tolerance, costs: Costs) -> usize {
     /// What every series costs, in products.
     const BESIDE: f64 = 8.0;
     /// More orders than for series of many products are taken up to this one.
-    const MOST_BESIDE: f64 = 24.0;
+    const MOST_BESIDE: f64 = 20.0;
     let digits = -tolerance.strictness().ln();
     let Costs {
         products,

@@ -30,6 +30,9 @@ const CLOSER_LOOK: f64 = 0.1;
 /// But not beyond this share of the step that the motion allows (close to time 0 its resolution is no limit).
 const CLOSEST: f64 = 1e-20;
 
+/// Coefficients that are left out at once where those of a guard are no numbers.
+const LOWER: usize = 4;
+
 /// So many times a step is made shorter because the interpolation of its guards does not hold.
 const MOST_TRIES: usize = 10;
 /// What exponents may rise by in a step of other methods than Taylor's, as an order.
@@ -139,7 +142,7 @@ impl<T: Scalar> Run<T> {
     fn taylor_step(&mut self) -> Result<Hit, Error> {
         self.expand()?;
         let longest = self.end - self.now.t.value();
-        let (moves, order) = self
+        let (moves, mut order) = self
             .longest_series()
             .ok_or_else(|| self.not_finite("a Taylor coefficient"))?;
         let moves = moves.min(longest);
@@ -239,6 +242,11 @@ impl<T: Scalar> Run<T> {
                 }
                 Verdict::Redo { h: smaller } => {
                     self.recorder.trajectory.work.rejected += 1;
+                    if let Some(lower) = self.order_of_guards(order) {
+                        order = lower;
+                        h = h.min(self.step_of(order).unwrap_or(smaller));
+                        continue;
+                    }
                     guarded |= motion <= 1.0;
                     if motion <= 1.0 && smaller <= self.resolution(moves) {
                         if self.locator.rests.is_empty() {
@@ -270,11 +278,22 @@ impl<T: Scalar> Run<T> {
     /// The step that the series at hand allows, and the order up to which it is used: close to where a slip vanishes that turns, the last
     /// coefficients are beyond all numbers.
     fn longest_series(&self) -> Option<(f64, usize)> {
-        let (series, tolerance) = (self.dynamics.state_series(), self.settings.per_step());
-        let step = |order| taylor::step_size(series, order, tolerance);
         let highest = self.stepper.order;
         let mut orders = (LEAST_DEGREE.min(highest)..=highest).rev();
-        orders.find_map(|order| Some((step(order)?, order)))
+        orders.find_map(|order| Some((self.step_of(order)?, order)))
+    }
+
+    /// The step that the series at hand allows, used up to this order.
+    fn step_of(&self, order: usize) -> Option<f64> {
+        let (series, tolerance) = (self.dynamics.state_series(), self.settings.per_step());
+        taylor::step_size(series, order, tolerance)
+    }
+
+    /// A lower order, if coefficients of a guard are beyond all numbers where those of the motion are not, as those of forces of 1e300 N.
+    fn order_of_guards(&self, order: usize) -> Option<usize> {
+        let lower = order.saturating_sub(LOWER).max(LEAST_DEGREE);
+        let without = lower < order && self.locator.polynomials.without_series().is_some();
+        without.then_some(lower)
     }
 
     /// Whether time is another after a step.

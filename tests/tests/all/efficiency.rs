@@ -42,7 +42,7 @@ fn work_on_the_wheel_does_not_grow() {
         1e-9,
         &expect![[r#"
             method        steps  rejected  evaluations  series  factorizations  projections
-            taylor           13         1           20      14               0            0
+            taylor            9         0           15      10               0            0
             dop853           22         2          653       4               0            0
             dopri5           96         0         1657       4               0            0
             verner98         17         0          571       4               0            0
@@ -60,7 +60,7 @@ fn work_on_the_cartesian_pendulum_does_not_grow() {
         1e-9,
         &expect![[r#"
             method        steps  rejected  evaluations  series  factorizations  projections
-            taylor           85         0           87      85               2           75
+            taylor           61         0           63      61               0           53
             dop853          167         6         3360       3             150          117
             dopri5          765         0         8222      12             500          568
             verner98        119         0         2902       2              18           42
@@ -133,8 +133,8 @@ fn gauss_6_keeps_its_order_on_constraints() {
 #[test]
 fn the_taylor_method_follows_the_tolerance_on_constraints() {
     // Its order grows with the tolerance's digits: three more of these divide the error by a thousand, in hardly more steps.
-    let (few, large) = pendulum("taylor", 1e-9);
-    let (many, small) = pendulum("taylor", 1e-12);
+    let (few, large) = pendulum("taylor", 1e-6);
+    let (many, small) = pendulum("taylor", 1e-9);
     assert!(small < 1e-2 * large, "{large:.1e}, {small:.1e}");
     assert!(many < 1.2 * few, "{few} steps, then {many}");
 }

@@ -60,7 +60,10 @@ fn slips_of_the_size_of_errors_come_to_rest() {
                 for (x, known) in pairs.zip(known.q.iter().chain(&known.v)) {
                     agree(&what, *x, *known, 100.0 * tolerance * known.abs().max(1.0));
                 }
-                assert_eq!(found.events().len(), 2, "{what}");
+                // The slip falls so slowly that an error of 1e-6 m/s moves its end by milliseconds.
+                let ends = tolerance < 1e-6 || end > 0.0524;
+                let events = found.events().len();
+                assert!(events == 2 || !ends && events == 1, "{what}: {events}");
                 assert!(found.work().steps < 20_000, "{what}: {:?}", found.work());
                 let certificate = found.verify(1).expect("a certificate");
                 assert!(certificate.holds(), "{what}: {certificate}");

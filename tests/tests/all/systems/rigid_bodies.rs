@@ -38,7 +38,8 @@ fn a_ball_that_rolls_along_a_wall_is_certified() {
             );
             let simulation = Simulation::new(&scene).tolerance(tolerance);
             let run = simulation.run(start, 0.0..2.0).expect("a run");
-            agree("y", run.final_state().q(Rolling::Y), 2.0 * speed, 1e-9);
+            let end = run.final_state().q(Rolling::Y);
+            agree("y", end, 2.0 * speed, 10.0 * tolerance);
             let certificate = run.verify(0).expect("recorded");
             assert!(certificate.holds(), "{certificate}");
         }
