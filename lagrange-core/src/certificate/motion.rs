@@ -542,12 +542,7 @@ impl<T: Scalar> Examination<'_, T> {
         let record = self.record;
         while let Some(event) = record.events().get(self.events) {
             let now = event.time.value();
-            let comes_after = !advances && {
-                let [expected, after] = [&self.expected, &numbers(&event.state_after)]
-                    .map(|state| self.distance(begin, state));
-                expected <= after
-            };
-            if now > time || now == time && comes_after {
+            if now > time || now == time && !advances && self.precedes_events(begin, now) {
                 break;
             }
             let repeats = self.events > 0 && {
@@ -585,6 +580,15 @@ impl<T: Scalar> Examination<'_, T> {
                 _ => {}
             }
         }
+    }
+
+    /// Whether a step that begins so is nearer to the state expected than to what any of the events at that time leaves.
+    fn precedes_events(&self, begin: &State<f64>, now: f64) -> bool {
+        let events = self.record.events()[self.events..].iter();
+        let at_once = events.take_while(|event| event.time.value() == now);
+        let mut changes = at_once.filter(|event| event.state != event.state_after);
+        let expected = self.distance(begin, &self.expected);
+        changes.all(|event| expected <= self.distance(begin, &numbers(&event.state_after)))
     }
 
     /// How far two states are from one another, in units of their sizes.
