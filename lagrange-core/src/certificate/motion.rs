@@ -586,9 +586,10 @@ impl<T: Scalar> Examination<'_, T> {
     fn precedes_events(&self, begin: &State<f64>, now: f64) -> bool {
         let events = self.record.events()[self.events..].iter();
         let at_once = events.take_while(|event| event.time.value() == now);
-        let mut changes = at_once.filter(|event| event.state != event.state_after);
+        let jumps = |kind| matches!(kind, EventKind::Impact | EventKind::Accumulates { .. });
+        let mut jumps = at_once.filter(|event| jumps(event.kind));
         let expected = self.distance(begin, &self.expected);
-        changes.all(|event| expected <= self.distance(begin, &numbers(&event.state_after)))
+        jumps.all(|event| expected <= self.distance(begin, &numbers(&event.state_after)))
     }
 
     /// How far two states are from one another, in units of their sizes.
