@@ -178,6 +178,19 @@ pub enum Error {
         /// The mode.
         mode: String,
     },
+    /// The normal force of a contact grows without bound: the friction on it jams.
+    Unbounded {
+        /// Time, s.
+        time: f64,
+        /// The mode.
+        mode: String,
+        /// The contact.
+        item: &'static str,
+        /// The force where the mode began, N for a gap in m.
+        from: f64,
+        /// The force at the last state.
+        to: f64,
+    },
     /// Fixed steps are too long to follow the motion.
     StepTooLarge {
         /// Time, s.
@@ -457,6 +470,17 @@ impl fmt::Display for Error {
             Error::StepTooSmall { time, step, mode } => write!(
                 f,
                 "t = {time} ({mode}): the step fell to {step:.1e} s; the motion is singular here or the tolerance is too tight"
+            ),
+            Error::Unbounded {
+                time,
+                mode,
+                item,
+                from,
+                to,
+            } => write!(
+                f,
+                "t = {time} ({mode}): the force of `{item}` grows without bound, from {from:.3e} to {to:.3e}: rigid friction jams (Painlevé 1895); lower its \
+                 coefficient or make the contact compliant"
             ),
             Error::StepTooLarge { time, step, mode } => write!(
                 f,

@@ -28,6 +28,7 @@ impl<T: Scalar> Run<T> {
                 .domain_left()
                 .or_else(|| self.steps_too_long())
                 .or_else(|| self.extremal_constraint(&error))
+                .or_else(|| self.jammed_contact(&error))
                 .unwrap_or_else(|| self.overflow(error)),
         }
     }

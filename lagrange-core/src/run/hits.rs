@@ -17,6 +17,9 @@ use crate::system::{Condition, Description, Watch};
 /// Coefficients this much smaller than all together cannot be told from 0: some degrees times rounding.
 const RESOLUTION: f64 = 1e-13;
 
+/// Residues move a root by less than this share of its time; else they are what the guard is.
+const RESIDUE: f64 = 1e-3;
+
 /// So many units of rounding are between the time of a root and of the same one when the next step begins.
 const UNITS_OF_TIME: f64 = 64.0;
 
@@ -155,7 +158,8 @@ impl<T: Scalar> Run<T> {
         if is_edge_in_flight(guard, &self.now.mode) {
             return self.comes_onto(guard, curve);
         }
-        let curve = self.judged(guard, curve)?;
+        let whole = curve;
+        let curve = self.judged(guard, whole)?;
         if falls_at_once(curve) && !self.is_below(guard) && self.within_region(guard, 0.0) {
             return Some((0.0, 0.0));
         }
@@ -163,7 +167,8 @@ impl<T: Scalar> Run<T> {
         while let Some(root) = first_root(curve, from) {
             let falls = root.direction == Direction::Falling && !root.grazing;
             if falls && self.within_region(guard, root.s) {
-                return Some(self.place(guard, &root));
+                let (s, width) = self.place(guard, &root);
+                return Some((self.with_residues(guard, whole, s), width));
             }
             // A root that rounding puts at 0 must not be found again.
             from = root.s.max(f64::MIN_POSITIVE);
@@ -174,10 +179,29 @@ impl<T: Scalar> Run<T> {
         None
     }
 
+    /// How many leading coefficients of a guard are known to vanish.
+    fn known_zeros(&self, guard: Guard) -> usize {
+        let zeros = self.locator.zeros.iter().find(|(g, _)| *g == guard);
+        zeros.map_or(0, |(_, order)| *order)
+    }
+
+    /// The root `s` of a guard that was judged without its first coefficients, where all of them count: a residue of the rate or the force with which
+    /// its mode began has added up since.
+    fn with_residues(&self, guard: Guard, curve: &[f64], s: f64) -> f64 {
+        if self.known_zeros(guard) < 2 {
+            return s;
+        }
+        let by = value(curve, s) / slope(curve, s);
+        let counted = s - by;
+        match by.abs() <= RESIDUE * s && counted <= 1.0 {
+            true => counted,
+            false => s,
+        }
+    }
+
     /// What of a guard's curve is judged: without leading coefficients that are known to vanish. Nothing if all do.
     pub(super) fn judged<'c>(&self, guard: Guard, curve: &'c [f64]) -> Option<&'c [f64]> {
-        let zeros = self.locator.zeros.iter().find(|(g, _)| *g == guard);
-        let known = zeros.map_or(0, |(_, order)| *order);
+        let known = self.known_zeros(guard);
         if known >= LENGTH {
             return None;
         }

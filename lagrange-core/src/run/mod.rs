@@ -11,6 +11,7 @@ mod guard_polynomials;
 mod hit;
 mod hits;
 mod instant;
+mod jam;
 pub(crate) mod lockstep;
 mod log;
 mod outlook;

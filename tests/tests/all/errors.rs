@@ -784,3 +784,61 @@ fn a_constraint_that_is_extremal_where_it_holds_is_named() {
         "{failure}"
     );
 }
+
+/// A uniform rod slides forward on its tip.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, a),
+    define(tip_x = x + half * cos(a), tip_y = y - half * sin(a)),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2) + mass * half^2 / 6 * der(a)^2,
+    potential = mass * gravity * y,
+    contact(floor: tip_y >= 0),
+    friction(rub on floor: slip = der(tip_x), static = mu),
+    start(sliding: a = lean, y = half * sin(lean), der(a) = turn, der(y) = half * cos(lean) * turn,
+        der(x) = speed + half * sin(lean) * turn),
+)]
+struct SlidingRod {
+    mass: f64,
+    half: f64,
+    gravity: f64,
+    mu: f64,
+    lean: f64,
+    speed: f64,
+    turn: f64,
+}
+
+/// Where 1 + 3 cos a (cos a − μ sin a), which divides the normal force, falls to zero, no step arrives.
+#[test]
+fn a_force_that_grows_without_bound_names_its_contact() {
+    for (mass, mu) in [(1.0, 1.617459609678009), (5.0, 1.617459609678009)] {
+        let rod = SlidingRod {
+            mass,
+            half: 0.5,
+            gravity: 9.81,
+            mu,
+            lean: 0.5942181785175038,
+            speed: 4.576885209108196,
+            turn: 2.742583605913481,
+        };
+        for tolerance in [1e-6, 1e-9, 1e-12] {
+            let simulation = Simulation::new(&rod).tolerance(tolerance);
+            let failure = simulation
+                .run(rod.at(SlidingRod::SLIDING), 0.0..1.0)
+                .expect_err("jams");
+            let Error::Unbounded { item, from, to, .. } = failure.error else {
+                panic!("{tolerance:e}: {failure}")
+            };
+            assert_eq!(item, "floor");
+            let a = failure.trajectory.final_state().q(SlidingRod::A);
+            let divisor = |a: f64| 1.0 + 3.0 * a.cos() * (a.cos() - mu * a.sin());
+            assert!(
+                divisor(a).abs() < 1e-2 * divisor(rod.lean),
+                "{}",
+                divisor(a)
+            );
+            let begins = rod.gravity - rod.half * rod.lean.sin() * rod.turn.powi(2);
+            agree("force", from, mass * begins / divisor(rod.lean), 1e-8);
+            assert!(to > 10.0 * from, "{to}");
+        }
+    }
+}

@@ -3,7 +3,7 @@
 use lagrange_core::prelude::Error;
 
 /// Words for reasons; the number of a reason is its place, from 1.
-const REASONS: [&str; 14] = [
+const REASONS: [&str; 15] = [
     "other",
     "start",
     "projection",
@@ -18,6 +18,7 @@ const REASONS: [&str; 14] = [
     "limit",
     "domain",
     "no impact",
+    "force without bound",
 ];
 
 /// The number of a reason; 0 is kept where a run did not fail.
@@ -33,6 +34,7 @@ pub(super) fn code(error: &Error) -> f64 {
         Error::EnergyGain { .. } => "energy gain",
         Error::StepTooSmall { .. } => "step too small",
         Error::StepTooLarge { .. } => "step too large",
+        Error::Unbounded { .. } => "force without bound",
         Error::NoProgress { .. } => "no progress",
         Error::Limit { .. } | Error::OutOfReach { .. } => "limit",
         Error::Domain { .. } => "domain",

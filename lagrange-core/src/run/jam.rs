@@ -1,0 +1,87 @@
+//! Normal forces that grow without bound: friction that slips presses its contact on, and that the friction.
+//!
+//! Where the normal force of a contact follows from b/p, and the friction on it takes p through zero, forces may become as large as they like within a
+//! finite time (Painlevé 1895; Génot & Brogliato 1999, European Journal of Mechanics A 18, 653). No step reaches that instant.
+
+use super::Run;
+use crate::arithmetic::Scalar;
+use crate::error::Error;
+use crate::mode::FrictionMode;
+use crate::system::Normal;
+use crate::trajectory::State;
+
+/// A force that has become so many times as large as where its mode began,
+const LARGE: f64 = 10.0;
+
+/// and grew in each of so many steps before it ends, grows without bound.
+const STEPS: usize = 4;
+
+impl<T: Scalar> Run<T> {
+    /// The error that names the contact whose force grows without bound, if that is why the motion came to this `error`.
+    pub(super) fn jammed_contact(&mut self, error: &Error) -> Option<Error> {
+        if !matches!(error, Error::StepTooSmall { .. } | Error::Singular { .. }) {
+            return None;
+        }
+        let d = self.description();
+        let rubs = |c: usize| {
+            let frictions = d.frictions.iter().zip(&self.now.mode.frictions);
+            frictions.into_iter().any(|(friction, state)| {
+                matches!(friction.normal, Normal::Contact(on) if on == c)
+                    && matches!(state, FrictionMode::Slip(_))
+            })
+        };
+        let pressed = (0..d.contacts.len()).filter(|&c| self.now.mode.contacts[c] && rubs(c));
+        let pressed: Vec<usize> = pressed.collect();
+        let looks = match pressed.is_empty() {
+            true => return None,
+            false => self.forces_in_mode(&pressed)?,
+        };
+        let grows = |k: &usize| {
+            let force = |look: &Vec<f64>| look[*k].abs();
+            let latest = looks[looks.len() - STEPS - 1..].windows(2);
+            let mut latest = latest.map(|pair| [force(&pair[0]), force(&pair[1])]);
+            latest.all(|[before, after]| after > before)
+                && force(&looks[looks.len() - 1]) > LARGE * force(&looks[0])
+        };
+        let k = (0..pressed.len()).find(grows)?;
+        Some(Error::Unbounded {
+            time: self.now.t.value(),
+            mode: self.now.mode.display(d).to_string(),
+            item: d.contacts[pressed[k]].name,
+            from: looks[0][k],
+            to: looks[looks.len() - 1][k],
+        })
+    }
+
+    /// The forces of these contacts where the present mode began, where each of the last steps in it did, and now. `None` where there are not so
+    /// many, as where nothing is recorded.
+    fn forces_in_mode(&mut self, contacts: &[usize]) -> Option<Vec<Vec<f64>>> {
+        let d = self.description();
+        let record = &self.recorder.trajectory;
+        let segments = &record.segments;
+        let last = segments.last().filter(|_| record.recorded)?.mode;
+        let is_under_way = record.modes[last].under_way() == self.now.mode.under_way();
+        let in_mode = segments.iter().rev();
+        let in_mode = in_mode.take_while(|segment| segment.mode == last).count();
+        if !is_under_way || in_mode < STEPS {
+            return None;
+        }
+        let first = segments.len() - in_mode;
+        let latest = segments.len() - STEPS..segments.len();
+        let mut places = Vec::with_capacity(STEPS + 2);
+        let mut scratch = self.now.state.clone();
+        for k in core::iter::once(first).chain(latest) {
+            let State { q, v, .. } = &mut scratch;
+            record.state_at(&segments[k], T::zero(), q, v);
+            places.push((segments[k].t, scratch.clone()));
+        }
+        places.push((self.now.t, self.now.state.clone()));
+        self.dynamics.set_mode(&self.now.mode);
+        let look = |(t, State { q, v, .. }): (T, State<T>)| {
+            self.dynamics.value_along(t, &q, &v).ok()?;
+            let force = |c: &usize| self.dynamics.force(d.contacts[*c].row).value();
+            Some(contacts.iter().map(force).collect())
+        };
+        places.into_iter().map(look).collect()
+    }
+}
