@@ -24,18 +24,18 @@ impl<T: Scalar> Run<T> {
         }
         let d = self.description();
         let rubs = |c: usize| {
-            let frictions = d.frictions.iter().zip(&self.now.mode.frictions);
-            frictions.into_iter().any(|(friction, state)| {
+            let mut frictions = d.frictions.iter().zip(&self.now.mode.frictions);
+            frictions.any(|(friction, state)| {
                 matches!(friction.normal, Normal::Contact(on) if on == c)
                     && matches!(state, FrictionMode::Slip(_))
             })
         };
         let pressed = (0..d.contacts.len()).filter(|&c| self.now.mode.contacts[c] && rubs(c));
         let pressed: Vec<usize> = pressed.collect();
-        let looks = match pressed.is_empty() {
-            true => return None,
-            false => self.forces_in_mode(&pressed)?,
-        };
+        if pressed.is_empty() {
+            return None;
+        }
+        let looks = self.forces_in_mode(&pressed)?;
         let grows = |k: &usize| {
             let force = |look: &Vec<f64>| look[*k].abs();
             let latest = looks[looks.len() - STEPS - 1..].windows(2);
