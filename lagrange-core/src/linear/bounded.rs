@@ -128,21 +128,6 @@ impl ForceBounds {
         self.cones.iter().map(of).fold(f64::INFINITY, f64::min)
     }
 
-    /// The same where the forces are others by `change`, or by what of it has no effect.
-    pub(crate) fn least_changed(&self, values: &[f64], change: &DVector<f64>) -> f64 {
-        let Some(first) = self.basis.column_iter().next() else {
-            return self.least(values);
-        };
-        let y = self.basis.tr_mul(change) / first.norm_squared();
-        let changed = DVector::from_column_slice(values) + &self.open * y;
-        self.least(changed.as_slice())
-    }
-
-    /// The change of the forces that a point of [`Self::widest`] is.
-    pub(crate) fn change_of(&self, point: &ConicPoint) -> DVector<f64> {
-        &self.basis * point.x.rows(0, self.basis.ncols())
-    }
-
     /// The forces (y, margin) that keep bounds with these `values` by the largest margin up to `most`.
     pub(crate) fn widest(&self, values: &[f64], most: f64) -> ConicPoint {
         let (rows, columns) = self.open.shape();

@@ -284,8 +284,8 @@ impl<T: Scalar> Solver<T> {
         self.scale.clear();
         let inertia = |j: usize| self.matrix[j * size + j].value().abs();
         for j in 0..n {
-            let quaternions = self.quaternions.iter().map(|of| of.coordinates);
-            let of = { quaternions }.find(|of| of.contains(&j));
+            let mut quaternions = self.quaternions.iter().map(|of| of.coordinates);
+            let of = quaternions.find(|of| of.contains(&j));
             let largest = of.map(|of| of.map(inertia).into_iter().fold(0.0, f64::max));
             let inertia = largest.unwrap_or_else(|| inertia(j));
             self.scale

@@ -31,8 +31,6 @@ pub struct RedundantForces<T> {
     signs: Vec<f64>,
     bounds: Bounds,
     sizes: Sizes,
-    /// The change of the forces of least norm that kept all bounds best when that was last asked: mostly it does so where the motion is next.
-    widest: DVector<f64>,
 }
 
 /// What rounding leaves of a bound, relative to its size.
@@ -53,7 +51,6 @@ impl<T: Scalar> RedundantForces<T> {
 
     /// Looks at the last value of `dynamics`, and chooses the signs of constraint forces that carry friction.
     pub fn look(&mut self, dynamics: &Dynamics<T>) {
-        self.widest = DVector::zeros(0);
         if self.take_least(dynamics) {
             self.take_signs(dynamics);
         }
@@ -180,14 +177,13 @@ impl<T: Scalar> RedundantForces<T> {
     }
 
     /// The composite guard that forbids the mode, or comes nearer to that than `margin` (relative): of all the smallest.
-    pub fn critical(&mut self, margin: f64) -> Option<CompositeGuard> {
-        let values = self.bounds.forces.values.clone();
-        self.smallest(&values, margin)
+    pub fn critical(&self, margin: f64) -> Option<CompositeGuard> {
+        self.smallest(&self.bounds.forces.values, margin)
     }
 
     /// The same for guards with other values than those looked at, and the same rows.
     pub fn critical_at(
-        &mut self,
+        &self,
         mut value: impl FnMut(Guard, Option<ConePlane>) -> f64,
     ) -> Option<CompositeGuard> {
         let forces = &self.bounds.forces;
@@ -213,19 +209,13 @@ impl<T: Scalar> RedundantForces<T> {
     }
 
     /// The composite guard of bounds with these `values` that is smallest, and below `margin`.
-    fn smallest(&mut self, values: &[f64], margin: f64) -> Option<CompositeGuard> {
-        // Those of least norm may do, or those that did before.
+    fn smallest(&self, values: &[f64], margin: f64) -> Option<CompositeGuard> {
+        // Those of least norm may do.
         let forces = &self.bounds.forces;
         if !self.has_open() || forces.least(values) >= margin {
             return None;
         }
-        let is_known = self.widest.len() == self.least.forces.len();
-        if is_known && forces.least_changed(values, &self.widest) >= margin {
-            return None;
-        }
-        let point = forces.widest(values, 1.0);
-        self.widest = forces.change_of(&point);
-        let ConicPoint { z, .. } = point;
+        let ConicPoint { z, .. } = forces.widest(values, margin);
         let weights = forces.cones.iter().map(|cone| z[cone.first()]);
         // The rest is the weight of the margin asked for.
         let sum: f64 = weights.clone().sum();
