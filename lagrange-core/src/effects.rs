@@ -119,10 +119,9 @@ impl Effects {
             },
             Item::Friction(i) => match description.frictions[i].normal {
                 Normal::Contact(contact) => self.includes(description, Item::Contact(contact)),
-                Normal::Constraint(constraint) => {
-                    self.includes(description, Item::Constraint(constraint))
-                }
-                Normal::Given(_) => true,
+                normal => normal
+                    .constraints(description)
+                    .all(|constraint| self.includes(description, Item::Constraint(constraint))),
             },
             _ => true,
         }

@@ -359,21 +359,17 @@ impl Equations {
 
     /// What friction `f` brings from the equations that its normal force balances in into others.
     fn bring_by_friction(&mut self, f: usize, brought: &mut [f64]) {
-        use crate::system::Normal;
-        let source = match self.d.frictions[f].normal {
-            Normal::Contact(c) => self.d.contacts[c].row,
-            Normal::Constraint(i) => self.d.constraints[i].row,
-            Normal::Given(_) => return,
-        };
         let sizes = self.size.clone();
-        let (value, level) = self.row(source);
-        let (along, square) = self.along(value, level, &sizes);
-        let friction = self.declaration.frictions[f];
-        let coefficient = self.values.value(friction.kinetic_coefficient);
-        let force = coefficient * along / square.max(f64::MIN_POSITIVE);
-        for &slip in friction.slip {
-            self.along(slip, Level::Velocity, &sizes);
-            self.bring(Level::Velocity, force, brought);
+        for source in self.d.frictions[f].normal.rows(self.d) {
+            let (value, level) = self.row(source);
+            let (along, square) = self.along(value, level, &sizes);
+            let friction = self.declaration.frictions[f];
+            let coefficient = self.values.value(friction.kinetic_coefficient);
+            let force = coefficient * along / square.max(f64::MIN_POSITIVE);
+            for &slip in friction.slip {
+                self.along(slip, Level::Velocity, &sizes);
+                self.bring(Level::Velocity, force, brought);
+            }
         }
     }
 
@@ -620,6 +616,15 @@ impl Equations {
                 let size = self.force_along(self.declaration.constraints[i], self.level(i));
                 (lambda[self.d.constraints[i].row].abs(), size)
             }
+            Normal::Resultant(i) => {
+                let (mut square, mut sizes) = (0.0, 0.0);
+                for &i in self.d.resultants[i] {
+                    let size = self.force_along(self.declaration.constraints[i], self.level(i));
+                    square += lambda[self.d.constraints[i].row].powi(2);
+                    sizes += size * size;
+                }
+                (square.sqrt(), sizes.sqrt())
+            }
             Normal::Given(_) => {
                 let given = self.declaration.frictions[f].normal;
                 let normal = given.map_or(0.0, |e| self.values.value(e));
@@ -660,8 +665,7 @@ impl Equations {
         use crate::system::Normal;
         match self.d.frictions[f].normal {
             Normal::Contact(c) => mode.contacts[c],
-            Normal::Constraint(i) => self.constraint_acts(i, mode),
-            Normal::Given(_) => true,
+            normal => (normal.constraints(self.d)).all(|i| self.constraint_acts(i, mode)),
         }
     }
 

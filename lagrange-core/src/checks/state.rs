@@ -70,8 +70,7 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
         let d = self.scene.description();
         let contact = match d.frictions[friction.0].normal {
             Normal::Contact(contact) => Some(contact),
-            Normal::Constraint(constraint) => d.constraints[constraint].while_contact,
-            Normal::Given(_) => None,
+            normal => (normal.constraints(d).next()).and_then(|i| d.constraints[i].while_contact),
         };
         if let Some(contact) = contact {
             self.mode.contacts[contact] = true;

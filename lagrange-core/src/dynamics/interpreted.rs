@@ -103,6 +103,8 @@ pub(super) struct Shape {
     held_nodes: Vec<(usize, Register)>,
     /// Directions given from outside: (friction, components, their rates).
     pub slip_directions: Vec<(usize, [Register; 2], [Register; 2])>,
+    /// What presses frictions, given from outside.
+    pub resultants: Vec<ResultantRegisters>,
     /// Whose series are kept.
     wanted: Vec<Register>,
     /// Where the numbers are.
@@ -110,6 +112,19 @@ pub(super) struct Shape {
     /// How many registers are used, and the room for them.
     pub used: usize,
     pub registers: usize,
+}
+
+/// Where N = Σ uᵢ λᵢ + ρ is given.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct ResultantRegisters {
+    /// Index into the description.
+    pub resultant: usize,
+    /// u
+    pub along: [Register; 3],
+    /// ρ and its rate.
+    pub rest: (Register, Register),
+    /// Per constraint: the unknown that is −λ; none where the force follows from others.
+    pub forces: Vec<Option<usize>>,
 }
 
 impl Shape {
@@ -426,6 +441,21 @@ fn shape<T: Scalar>(
             (slip_direction.friction, components, rates)
         });
         let slip_directions: Vec<_> = slip_directions.collect();
+        let resultants = pattern.resultants.iter().map(|given| {
+            let constraints = d.resultants[given.resultant].iter();
+            let forces = constraints.map(|&i| {
+                let row = d.constraints[i].row;
+                let kept = pattern.kept.iter().position(|kept| *kept == row);
+                kept.map(|kept| pattern.free() + kept)
+            });
+            ResultantRegisters {
+                resultant: given.resultant,
+                along: given.along.map(|node| nodes[node]),
+                rest: (nodes[given.rest], builder.fresh()),
+                forces: forces.collect(),
+            }
+        });
+        let resultants: Vec<_> = resultants.collect();
         let mut solution = Solution {
             builder: &mut builder,
             pattern,
@@ -439,7 +469,7 @@ fn shape<T: Scalar>(
         let unknowns = solution.unknowns();
         solution.builder.cut();
         solution.forces(&unknowns, &right);
-        (slip_directions, right, unknowns)
+        (slip_directions, resultants, right, unknowns)
     });
     if solution.is_none() {
         builder.cut();
@@ -462,7 +492,7 @@ fn shape<T: Scalar>(
         registers: room(used),
         ..Shape::default()
     };
-    let Some((slip_directions, right, unknowns)) = solution else {
+    let Some((slip_directions, resultants, right, unknowns)) = solution else {
         let nodes = outputs.held_nodes.iter().map(|(_, register)| *register);
         let wanted = nodes.chain(outputs.report_nodes.iter().copied());
         return Shape {
@@ -502,17 +532,22 @@ fn shape<T: Scalar>(
     let turns = slip_directions
         .iter()
         .flat_map(|&(_, u, rates)| u.into_iter().zip(rates));
+    let presses = resultants.iter().flat_map(|given| {
+        let along = given.along.into_iter().map(|u| (u, Register::ZERO));
+        along.chain([given.rest])
+    });
     let elements = pattern.entries.iter().filter(|e| !nodes[e.node].is_zero());
     let elements = elements.map(|e| (e.row, nodes[e.node], unknowns[e.column]));
     Shape {
         series: everything.needed(wanted.iter().copied().chain(accelerations.clone()), used),
         accelerations: everything.needed(accelerations, used),
         everything,
-        integrals: changes.chain(turns).collect(),
+        integrals: changes.chain(turns).chain(presses).collect(),
         right: right[..pattern.size()].to_vec(),
         elements: elements.collect(),
         unknowns,
         slip_directions,
+        resultants,
         wanted,
         ..outputs
     }
@@ -603,6 +638,7 @@ impl<T: Scalar> Solution<'_, T> {
             let value = self.builder.push(Op::Sub, sum, right[size + index]);
             self.builder.copy(force(row), value);
         }
+        let mut before: Option<(usize, Register)> = None;
         for slide in &pattern.slides {
             let factor = match slide.factor {
                 ValueRef::Zero => Register::ZERO,
@@ -616,7 +652,12 @@ impl<T: Scalar> Solution<'_, T> {
                 }
                 (_, Some(source)) => self.builder.push(Op::Scale, factor, force(source)),
             };
-            self.builder.copy(force(slide.row), value);
+            let sum = match before.filter(|(row, _)| *row == slide.row) {
+                Some((_, sum)) => self.builder.push(Op::Add, sum, value),
+                None => value,
+            };
+            before = Some((slide.row, sum));
+            self.builder.copy(force(slide.row), sum);
         }
     }
 }

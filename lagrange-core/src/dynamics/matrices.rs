@@ -107,7 +107,7 @@ impl<T: Scalar> Dynamics<T> {
         let forces = self.forces_of_acting(&least.forces);
         for slide in &self.compiled().pattern.slides {
             if let Some(source) = slide.source {
-                determined[slide.row] = determined[source];
+                determined[slide.row] &= determined[source];
             }
         }
         (forces, determined)
@@ -161,10 +161,14 @@ impl<T: Scalar> Dynamics<T> {
         for (&row, &force) in self.acting_rows().iter().zip(acting_forces) {
             forces[row] = force;
         }
-        for slide in &self.compiled().pattern.slides {
+        let slides = || self.compiled().pattern.slides.iter();
+        let follows = slides().filter(|slide| slide.source.is_some());
+        follows.for_each(|slide| forces[slide.row] = T::zero());
+        for slide in slides() {
             if let Some(source) = slide.source {
-                forces[slide.row] =
-                    slide.factor.read(&self.compiled().constants, &nodes) * forces[source];
+                let factor = slide.factor.read(&self.compiled().constants, &nodes);
+                let force = factor * forces[source];
+                forces[slide.row] += force;
             }
         }
         forces

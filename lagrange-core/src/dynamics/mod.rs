@@ -16,6 +16,7 @@ mod output_mask;
 mod owner;
 mod packets;
 mod projection;
+mod resultant;
 mod series;
 mod slip_direction;
 mod stepping;
@@ -119,6 +120,8 @@ pub struct Dynamics<T: Scalar> {
     solution: Vec<T>,
     /// Directions of slips with two components.
     slip_directions: slip_direction::SlipDirections<T>,
+    /// Directions of forces that press frictions together.
+    resultants: resultant::Resultants<T>,
     projector: Solver<T>,
     projection: projection::Scratch<T>,
     /// Columns of a Jacobian, for a stepper that wants rows.
@@ -161,6 +164,7 @@ impl<T: Scalar> Dynamics<T> {
             right: Vec::with_capacity(n + rows),
             solution: Vec::with_capacity(n + rows),
             slip_directions: slip_direction::SlipDirections::new(d.frictions.len()),
+            resultants: resultant::Resultants::new(d.resultants.len()),
             projector,
             projection: projection::Scratch::new(n, rows),
             columns: Vec::new(),
@@ -309,6 +313,7 @@ impl<T: Scalar> Dynamics<T> {
     pub(crate) fn restart(&mut self) {
         self.modes.iter_mut().for_each(Compiled::restart);
         self.slip_directions.restart();
+        self.resultants.restart();
     }
 
     /// Makes a mode ready; returns its place.

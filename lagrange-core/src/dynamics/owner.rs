@@ -38,7 +38,7 @@ fn numbers(d: &'static Description) -> impl Iterator<Item = (&'static str, Value
     let frictions = d.frictions.iter().flat_map(|f| {
         let normal = match f.normal {
             Normal::Given(place) => place,
-            Normal::Contact(_) | Normal::Constraint(_) => ValueRef::Zero,
+            _ => ValueRef::Zero,
         };
         [f.static_coefficient, f.kinetic_coefficient, normal].map(|place| (f.name, place))
     });

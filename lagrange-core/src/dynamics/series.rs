@@ -57,6 +57,11 @@ impl<T: Scalar> Dynamics<T> {
             }
         }
         self.run(t, q, v, Extent::Series, true)?;
+        if self.presses_by_resultants() {
+            self.expand_pressed(order)?;
+            self.take_slip_directions_of_series();
+            return Ok(false);
+        }
         if self.compiled().pattern.slip_directions.is_empty() {
             match self.start_series(order) {
                 Err(EvaluationError::NoSeries { .. }) => {
@@ -174,12 +179,16 @@ impl<T: Scalar> Dynamics<T> {
             current,
             right,
             slip_directions,
+            resultants,
             ..
         } = self;
         let (_, solver, interpreted) = modes[*current].parts();
         let (shape, registers, Some(series)) = interpreted.parts() else {
             return;
         };
+        for given in &shape.resultants {
+            resultants.begin(given, &shape.unknowns, registers);
+        }
         for &(friction, _, rates) in &shape.slip_directions {
             for (rate, u) in rates
                 .into_iter()
@@ -200,6 +209,10 @@ impl<T: Scalar> Dynamics<T> {
                     now[register.index()] = x;
                 }
                 let next = T::from_f64((k + 1) as f64);
+                for given in &shape.resultants {
+                    let rest = resultants.follow(given, k, right, now);
+                    now[given.rest.1.index()] = next * rest;
+                }
                 for &(friction, _, rates) in &shape.slip_directions {
                     let turn = slip_directions.coefficient(friction, k + 1);
                     for (rate, u) in rates.into_iter().zip(turn) {

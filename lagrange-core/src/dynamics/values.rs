@@ -121,6 +121,20 @@ impl<T: Scalar> Dynamics<T> {
             }
         }
         interpreted.evaluate(extent, MOTION);
+        if !interpreted.shape.resultants.is_empty() {
+            return self.solve_pressed(extent, refined);
+        }
+        self.solve_system(extent, refined)
+    }
+
+    /// The linear system and its forces, from what the motion program has left in the registers.
+    #[inline]
+    pub(super) fn solve_system(
+        &mut self,
+        extent: Extent,
+        refined: bool,
+    ) -> Result<(), EvaluationError> {
+        let (_, _, interpreted) = self.modes[self.current].parts();
         interpreted.evaluate(extent, SYSTEM);
         self.solve_start(refined)?;
         let (_, _, interpreted) = self.modes[self.current].parts();
@@ -217,7 +231,7 @@ impl<T: Scalar> Dynamics<T> {
     }
 
     /// Right-hand sides from the registers.
-    fn fill_right(&mut self) {
+    pub(super) fn fill_right(&mut self) {
         let (_, _, interpreted) = self.modes[self.current].parts();
         let right = interpreted.shape.right.iter();
         self.right.clear();

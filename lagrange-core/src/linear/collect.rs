@@ -27,7 +27,7 @@ pub(crate) struct ColumnElement {
     pub source: Source,
 }
 
-/// A sliding friction's row: λ[row] = factor · λ[source], or factor where there is no source.
+/// A part of the force of a sliding friction's row: λ[row] is the sum of factor · λ[source], or factor where there is no source.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Slide {
     pub row: usize,
@@ -41,6 +41,16 @@ pub(crate) struct SlipDirection {
     pub friction: usize,
     /// Where the components of the direction are.
     pub nodes: [usize; 2],
+}
+
+/// Forces of constraints that press together: N = Σ uᵢ λᵢ + ρ, where the unit vector u and ρ are given from outside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ResultantNodes {
+    pub resultant: usize,
+    /// Where the components of u are, as many as there are constraints.
+    pub along: [usize; 3],
+    /// Where ρ is.
+    pub rest: usize,
 }
 
 /// The pieces of the system of one mode.
@@ -80,8 +90,7 @@ pub(crate) fn acts(description: &Description, effects: &Effects, mode: &Mode, ro
             && effects.includes(description, Item::Friction(i))
             && match description.frictions[i].normal {
                 Normal::Contact(contact) => contact_acts(contact),
-                Normal::Constraint(constraint) => constraint_acts(constraint),
-                Normal::Given(_) => true,
+                normal => normal.constraints(description).all(constraint_acts),
             }
     })
 }
@@ -110,6 +119,7 @@ impl KktTerms {
         program: &mut Program<T>,
         slides: &mut Vec<Slide>,
         slip_directions: &mut Vec<SlipDirection>,
+        resultants: &mut Vec<ResultantNodes>,
     ) {
         self.acting.clear();
         self.acting.extend(acting(description, effects, mode));
@@ -117,6 +127,7 @@ impl KktTerms {
         self.loads.clear();
         slides.clear();
         slip_directions.clear();
+        resultants.clear();
         self.loads
             .extend(description.forcing.iter().copied().enumerate());
         for (index, &row) in self.acting.iter().enumerate() {
@@ -137,6 +148,7 @@ impl KktTerms {
             program,
             slides,
             slip_directions,
+            resultants,
         );
         for &Slide {
             row,
@@ -159,7 +171,9 @@ impl KktTerms {
             }
             if self.acting.binary_search(&coupling.row).is_ok() {
                 self.push_force(coupling.coordinate, coupling.factor, Some(coupling.row));
-            } else if let Some(slide) = slides.iter().find(|s| s.row == coupling.row) {
+                continue;
+            }
+            for slide in slides.iter().filter(|s| s.row == coupling.row) {
                 let force = program.mul(constants, coupling.factor, slide.factor);
                 self.push_force(coupling.coordinate, force, slide.source);
             }
@@ -180,6 +194,7 @@ impl KktTerms {
         program: &mut Program<T>,
         slides: &mut Vec<Slide>,
         slip_directions: &mut Vec<SlipDirection>,
+        resultants: &mut Vec<ResultantNodes>,
     ) {
         for (i, friction) in description.frictions.iter().enumerate() {
             let FrictionMode::Slip(sliding) = mode.frictions[i] else {
@@ -189,23 +204,41 @@ impl KktTerms {
                 continue;
             }
             let mut strength = friction.kinetic_coefficient;
-            let source = match friction.normal {
+            // What presses is the sum of these: 1 or a number, times the force of a row or 1.
+            let mut pressing = vec![(None, None)];
+            match friction.normal {
                 Normal::Contact(contact) => {
                     if let Some(factor) = description.contacts[contact].normal_factor {
                         strength = program.mul(constants, strength, factor);
                     }
-                    Some(description.contacts[contact].row)
+                    pressing[0].1 = Some(description.contacts[contact].row);
                 }
                 Normal::Constraint(constraint) => {
                     strength = program.scale(constants, T::from_f64(sliding.normal_sign), strength);
-                    Some(description.constraints[constraint].row)
+                    pressing[0].1 = Some(description.constraints[constraint].row);
                 }
-                Normal::Given(normal) => {
-                    strength = program.mul(constants, strength, normal);
-                    None
+                Normal::Resultant(resultant) => {
+                    let known = resultants.iter().find(|known| known.resultant == resultant);
+                    let nodes = known.copied().unwrap_or_else(|| {
+                        let nodes = ResultantNodes {
+                            resultant,
+                            along: [program.given(), program.given(), program.given()],
+                            rest: program.given(),
+                        };
+                        resultants.push(nodes);
+                        nodes
+                    });
+                    pressing[0].0 = Some(ValueRef::Node(nodes.rest));
+                    let constraints = description.resultants[resultant].iter();
+                    pressing.extend(constraints.zip(nodes.along).map(|(&constraint, along)| {
+                        let row = description.constraints[constraint].row;
+                        (Some(ValueRef::Node(along)), Some(row))
+                    }));
                 }
-            };
-            if source.is_some_and(|row| self.acting.binary_search(&row).is_err()) {
+                Normal::Given(normal) => strength = program.mul(constants, strength, normal),
+            }
+            let acts = |row: usize| self.acting.binary_search(&row).is_ok();
+            if !pressing.iter().filter_map(|part| part.1).all(acts) {
                 continue;
             }
             let slip = |component: usize| description.rows[friction.row + component].velocity;
@@ -239,11 +272,14 @@ impl KktTerms {
                         program.mul(constants, strength, ValueRef::Node(node))
                     }
                 };
-                slides.push(Slide {
-                    row,
-                    factor,
-                    source,
-                });
+                for &(share, source) in &pressing {
+                    let share = share.map(|share| program.mul(constants, factor, share));
+                    slides.push(Slide {
+                        row,
+                        factor: share.unwrap_or(factor),
+                        source,
+                    });
+                }
             }
             if let Direction::Incipient(_) = sliding.direction {
                 slip_directions.push(slip_direction);

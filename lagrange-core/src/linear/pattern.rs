@@ -3,7 +3,7 @@
 //! Structural zeros never appear, what depends on parameters only is summed once, constant rows are eliminated. What is
 //! left are K w = b for w = (u̇, −λ of the rows kept) and, for the rows eliminated, λ = (further rows of K) w − (of b).
 
-use super::collect::{KktTerms, Slide, SlipDirection, Source};
+use super::collect::{KktTerms, ResultantNodes, Slide, SlipDirection, Source};
 use super::eliminate::Elimination;
 use super::program::Program;
 use crate::arithmetic::Scalar;
@@ -48,6 +48,8 @@ pub(crate) struct KktPattern<T> {
     pub slides: Vec<Slide>,
     /// Of these, those whose slip begins.
     pub slip_directions: Vec<SlipDirection>,
+    /// Of what presses those that slide, what is given from outside.
+    pub resultants: Vec<ResultantNodes>,
     /// Work after the motion program.
     pub program: Program<T>,
     /// Elements that change, in the square system: accelerations first, forces after `first_force`.
@@ -138,6 +140,7 @@ impl<T: Scalar> KktPattern<T> {
             && self.eliminated == other.eliminated
             && self.slides == other.slides
             && self.slip_directions == other.slip_directions
+            && self.resultants == other.resultants
             && self.entries == other.entries
             && self.first_force == other.first_force
             && self.force_entries == other.force_entries
@@ -169,6 +172,7 @@ impl<T: Scalar> KktPattern<T> {
             &mut self.program,
             &mut self.slides,
             &mut self.slip_directions,
+            &mut self.resultants,
         );
         self.eliminate(description, constants);
         self.collect_terms(description);

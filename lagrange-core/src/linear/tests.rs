@@ -204,6 +204,7 @@ fn random_system(seed: u64) -> (Description, Builder) {
         constraints: vec![constraint].leak(),
         contacts: contacts.leak(),
         frictions: frictions.leak(),
+        resultants: &[],
         forces: &[],
         dissipations: &[],
         branches: &[],

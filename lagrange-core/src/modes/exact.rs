@@ -110,6 +110,19 @@ fn normal<T: Scalar>(f: usize, mode: &Mode, dynamics: &Dynamics<T>) -> T {
                 _ => force,
             }
         }
+        Normal::Resultant(_) => {
+            let rows = d.frictions[f].normal.rows(d);
+            length(rows.map(|row| dynamics.force(row)))
+        }
         Normal::Given(place) => dynamics.motion(place),
+    }
+}
+
+/// √Σx², without derivatives where that is zero.
+pub fn length<T: Scalar>(x: impl Iterator<Item = T>) -> T {
+    let square = x.fold(T::zero(), |sum, x| sum + x * x);
+    match square.value() > 0.0 {
+        true => square.sqrt(),
+        false => T::zero(),
     }
 }

@@ -158,7 +158,11 @@ pub fn fades<T: Scalar>(f: usize, dynamics: &Dynamics<T>) -> bool {
 
 /// The guards of friction `f` while it sticks.
 pub fn stick_guards(f: usize, friction: &Friction) -> impl Iterator<Item = Guard> {
-    let cone = friction.components > 1 || matches!(friction.normal, Normal::Constraint(_));
+    let by_constraints = matches!(
+        friction.normal,
+        Normal::Constraint(_) | Normal::Resultant(_)
+    );
+    let cone = friction.components > 1 || by_constraints;
     let pair = [Guard::StickUpper(f), Guard::StickLower(f)];
     cone.then_some(Guard::StickCone(f))
         .into_iter()
@@ -467,11 +471,25 @@ fn stick_cone<T: Scalar>(f: usize, mode: &Mode, reading: &Reading<'_, T>, out: &
     let friction = &reading.description().frictions[f];
     let rows = friction.row..friction.row + friction.components;
     let mut greatest = [0.0; LENGTH];
-    limit(f, mode, reading, &mut greatest[..out.len()]);
-    let values = rows.clone().map(|row| reading.force(row).first().value());
-    let part = 1.0 / cone_unit(values.chain([greatest[0]]));
-    greatest.iter_mut().for_each(|c| *c *= part);
-    add_product(out, 1.0, &greatest, &greatest);
+    let first = |row: usize| reading.force(row).first().value();
+    let values = rows.clone().map(first);
+    let part = if let normal @ Normal::Resultant(_) = friction.normal {
+        // The square has a series also where the root has none.
+        let presses = normal.rows(reading.description()).map(first);
+        let part = 1.0 / cone_unit(values.chain(presses));
+        let coefficient = numbers(reading.motion(friction.static_coefficient));
+        let [mut square, mut one] = [[0.0; LENGTH]; 2];
+        add_squares(&mut square, part, normal, reading);
+        add_product(&mut one, 1.0, &coefficient, &coefficient);
+        add_product(out, 1.0, &one, &square);
+        part
+    } else {
+        limit(f, mode, reading, &mut greatest[..out.len()]);
+        let part = 1.0 / cone_unit(values.chain([greatest[0]]));
+        greatest.iter_mut().for_each(|c| *c *= part);
+        add_product(out, 1.0, &greatest, &greatest);
+        part
+    };
     for row in rows {
         let mut force = [0.0; LENGTH];
         add(&mut force, (part, reading.force(row)));
@@ -516,7 +534,35 @@ pub fn normal_force<T: Scalar>(f: usize, mode: &Mode, reading: &Reading<'_, T>, 
             };
             add(out, (sign, reading.force(d.constraints[i].row)));
         }
+        normal @ Normal::Resultant(_) => {
+            let mut square = [0.0; LENGTH];
+            let square = &mut square[..out.len()];
+            add_squares(square, 1.0, normal, reading);
+            add_root(out, square);
+        }
         Normal::Given(place) => add(out, (1.0, reading.motion(place))),
+    }
+}
+
+/// Adds Σ (part λ)² of the rows that press.
+fn add_squares<T: Scalar>(out: &mut [f64], part: f64, normal: Normal, reading: &Reading<'_, T>) {
+    for row in normal.rows(reading.description()) {
+        let mut force = [0.0; LENGTH];
+        add(&mut force, (part, reading.force(row)));
+        add_product(out, 1.0, &force, &force);
+    }
+}
+
+/// Adds the root of a series, as far as it has one.
+fn add_root(out: &mut [f64], square: &[f64]) {
+    let mut root = [0.0; LENGTH];
+    root[0] = square[0].sqrt();
+    for k in (1..square.len()).take_while(|_| square[0] > 0.0) {
+        let products = (1..k).map(|j| root[j] * root[k - j]).sum::<f64>();
+        root[k] = (square[k] - products) / (root[0] + root[0]);
+    }
+    for (c, x) in out.iter_mut().zip(root) {
+        *c += x;
     }
 }
 

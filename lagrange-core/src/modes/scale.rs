@@ -130,6 +130,12 @@ impl Sizes {
                 self.row(d.contacts[c].row, dynamics).force * factor
             }
             Normal::Constraint(i) => self.row(d.constraints[i].row, dynamics).force,
+            normal @ Normal::Resultant(_) => {
+                let squares = normal
+                    .rows(d)
+                    .map(|row| self.row(row, dynamics).force.powi(2));
+                squares.sum::<f64>().sqrt()
+            }
             Normal::Given(place) => dynamics.motion(place).value().abs(),
         }
     }

@@ -424,7 +424,7 @@ impl<T: Scalar> Run<T> {
             facts.resting[f] = match friction.normal {
                 Normal::Contact(c) if !self.switcher.near.contains(&c) => facts.resting[f],
                 // Others that stick may have ended its slip.
-                Normal::Contact(_) | Normal::Constraint(_) => {
+                Normal::Contact(_) | Normal::Constraint(_) | Normal::Resultant(_) => {
                     outcome.sticks[f] || self.rests_after(outcome, f)
                 }
                 // No impulse acts there, but the impact may have begun or ended its slip.

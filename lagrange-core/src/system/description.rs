@@ -57,6 +57,9 @@ pub struct Description {
     pub contacts: &'static [Contact],
     /// Frictions.
     pub frictions: &'static [Friction],
+    /// Constraints whose forces press frictions together, as those of a bearing.
+    #[doc(hidden)]
+    pub resultants: &'static [&'static [usize]],
     /// Applied forces.
     pub forces: &'static [Load],
     /// Rayleigh dissipations.

@@ -2,6 +2,7 @@
 //!
 //! Every number is an *output* of a program or a parameter-only *constant*; a [`ValueRef`] says which.
 
+use super::Description;
 use crate::program::ValueRef;
 
 /// One scalar equation aᵢ v̇ + γᵢ = 0 with multiplier λᵢ.
@@ -63,16 +64,38 @@ pub enum Normal {
     Contact(usize),
     /// |λ| of this constraint.
     Constraint(usize),
+    /// √Σλ² of the constraints of this [resultant](super::Description::resultants).
+    Resultant(usize),
     /// An expression (`normal = …`; 1 for `limit = …`, whose limits are the coefficients).
     Given(ValueRef),
 }
 
 impl Normal {
+    /// The constraints of a description whose forces press.
+    pub(crate) fn constraints(self, d: &Description) -> impl Iterator<Item = usize> {
+        let (one, together): (_, &[usize]) = match self {
+            Normal::Constraint(i) => (Some(i), &[]),
+            Normal::Resultant(i) => (None, d.resultants[i]),
+            Normal::Contact(_) | Normal::Given(_) => (None, &[]),
+        };
+        one.into_iter().chain(together.iter().copied())
+    }
+
+    /// The rows of a description whose forces press.
+    pub(crate) fn rows(self, d: &Description) -> impl Iterator<Item = usize> {
+        let contact = match self {
+            Normal::Contact(c) => Some(d.contacts[c].row),
+            _ => None,
+        };
+        let constraints = self.constraints(d).map(|i| d.constraints[i].row);
+        contact.into_iter().chain(constraints)
+    }
+
     /// Whether something presses, given which contacts are closed.
     pub(crate) fn presses(self, closed: impl FnOnce(usize) -> bool) -> bool {
         match self {
             Normal::Contact(contact) => closed(contact),
-            Normal::Constraint(_) | Normal::Given(_) => true,
+            Normal::Constraint(_) | Normal::Resultant(_) | Normal::Given(_) => true,
         }
     }
 }

@@ -9,6 +9,7 @@ use crate::dynamics::{
 use crate::effects::Item;
 use crate::error::Error;
 use crate::mode::{Direction, Mode};
+use crate::modes::exact::length;
 use crate::modes::guard;
 use crate::modes::redundant::RedundantForces;
 use crate::system::{Description, Normal, ValueRef};
@@ -422,6 +423,7 @@ fn limit<T: Scalar>(dynamics: &Dynamics<T>, f: usize, forces: &[T]) -> T {
             let force = forces[d.constraints[i].row];
             if force.value() < 0.0 { -force } else { force }
         }
+        normal @ Normal::Resultant(_) => length(normal.rows(d).map(|row| forces[row])),
         Normal::Given(place) => dynamics.motion(place),
     };
     dynamics.motion(friction.static_coefficient) * normal

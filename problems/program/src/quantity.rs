@@ -192,7 +192,7 @@ pub(crate) fn force_word(unit: &str) -> &'static str {
 pub(crate) fn limit_name(friction: &Friction) -> &'static str {
     match friction.normal {
         Normal::Given(_) => "limit",
-        Normal::Contact(_) | Normal::Constraint(_) => "μN",
+        Normal::Contact(_) | Normal::Constraint(_) | Normal::Resultant(_) => "μN",
     }
 }
 

@@ -7,6 +7,7 @@
 //! Bilateral rows whose impulse nothing depends on are taken into M⁻¹ beforehand: M may be singular as long as they make the
 //! whole regular. Rows come in this order: constraints that carry friction, `while` rows, contacts, slip components.
 
+use super::bearing::Bearing;
 use crate::arithmetic::Scalar;
 
 /// A contact whose gap vanishes.
@@ -27,7 +28,7 @@ pub(super) struct ContactRow<T> {
 pub(super) enum NormalSource {
     /// A contact, by its place among the touches.
     ContactRow(usize),
-    /// A constraint, by its row here.
+    /// A constraint, by its row here; of several that press together the first, to which the others are [turned](super::bearing).
     ConstraintRow(usize),
 }
 
@@ -71,6 +72,8 @@ pub(super) struct Collision<T> {
     pub touches: Vec<ContactRow<T>>,
     /// Frictions on them and on constraints.
     pub rubs: Vec<FrictionRow<T>>,
+    /// Constraints that press frictions together.
+    pub bearings: Vec<Bearing>,
 }
 
 impl<T: Scalar> Collision<T> {

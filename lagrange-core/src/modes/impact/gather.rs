@@ -1,6 +1,7 @@
 //! From the equations of motion at one state to a [`Collision`], and from its impulses back to velocities.
 
 use super::Impact;
+use super::bearing::Bearing;
 use super::collision::{Collision, ContactRow, FrictionRow, NormalSource};
 use super::pattern::ROUNDING;
 use crate::arithmetic::Scalar;
@@ -164,6 +165,7 @@ impl<T: Scalar> Gathering<T> {
         out.conditional.clear();
         out.touches.clear();
         out.rubs.clear();
+        out.bearings.clear();
         self.list_constraints(dynamics, near, out);
         for &c in near {
             let (restitution, poisson) = match d.contacts[c].restitution {
@@ -188,8 +190,7 @@ impl<T: Scalar> Gathering<T> {
     fn list_constraints(&mut self, dynamics: &Dynamics<T>, near: &[usize], out: &mut Collision<T>) {
         let d = dynamics.description();
         let carries = |i: usize| {
-            frictions(dynamics)
-                .any(|f| matches!(d.frictions[f].normal, Normal::Constraint(c) if c == i))
+            frictions(dynamics).any(|f| d.frictions[f].normal.constraints(d).any(|c| c == i))
         };
         let included = |i: &usize| dynamics.effects().includes(d, Item::Constraint(*i));
         let constraints = || (0..d.constraints.len()).filter(included);
@@ -233,6 +234,21 @@ impl<T: Scalar> Gathering<T> {
                 let row = d.constraints[i].row;
                 let among = self.rows[..out.links].iter().position(|r| *r == row);
                 (among.map(NormalSource::ConstraintRow), None)
+            }
+            normal @ Normal::Resultant(_) => {
+                let mut among = normal.rows(d).map(|row| {
+                    let links = &self.rows[..out.links];
+                    links.iter().position(|link| *link == row)
+                });
+                // All of them are there, or none is.
+                let bearing = Bearing::of(&mut among);
+                if let Some(bearing) = bearing.filter(|new| !out.bearings.contains(new)) {
+                    out.bearings.push(bearing);
+                }
+                (
+                    bearing.map(|b| NormalSource::ConstraintRow(b.first())),
+                    None,
+                )
             }
             // A given force is finite: it does nothing in no time.
             Normal::Given(_) => (None, None),

@@ -11,6 +11,7 @@
 //! [`gather`] brings the impact into the space of its rows, [`law`] has the laws, [`turn`] impacts one after the other,
 //! [`search`] finds which contacts take part and which frictions stick, [`pattern`] solves and judges one such combination.
 
+mod bearing;
 mod collision;
 mod complement;
 mod gather;

@@ -64,28 +64,40 @@ impl<T: Scalar> RedundantForces<T> {
             };
             let coefficient = number(friction.static_coefficient);
             let mut normal_sign = 1.0;
-            let (limit, constant) = match friction.normal {
+            let mut limits = Vec::with_capacity(3);
+            let constant = match friction.normal {
                 Normal::Contact(c) => {
                     let factor = d.contacts[c].normal_factor.map_or(1.0, number);
                     let Some(row) = index(d.contacts[c].row) else {
                         continue;
                     };
-                    ((row, coefficient * factor), 0.0)
+                    limits.push((row, coefficient * factor));
+                    0.0
                 }
-                Normal::Given(place) => ((i, 0.0), coefficient * number(place)),
+                Normal::Given(place) => coefficient * number(place),
                 Normal::Constraint(on) => {
                     let Some(row) = index(d.constraints[on].row) else {
                         continue;
                     };
                     normal_sign = self.signs[on];
-                    ((row, coefficient * normal_sign), 0.0)
+                    limits.push((row, coefficient * normal_sign));
+                    0.0
+                }
+                // What the least forces press in their direction, others press at least.
+                normal @ Normal::Resultant(_) => {
+                    let rows = normal.rows(d).filter_map(index);
+                    limits.extend(rows.map(|row| (row, self.least.forces[row].value())));
+                    let size = limits.iter().map(|(_, force)| force * force).sum::<f64>();
+                    let part = coefficient / size.sqrt().max(f64::MIN_POSITIVE);
+                    limits.iter_mut().for_each(|(_, along)| *along *= part);
+                    0.0
                 }
             };
             if guard::stick_guards(f, friction).eq([Guard::StickCone(f)]) {
                 let other = (friction.components > 1).then(|| index(friction.row + 1));
                 let other = other.flatten().map(|j| (j, 1.0));
                 let cone = [
-                    (&[limit][..], constant),
+                    (&limits[..], constant),
                     (&[(i, 1.0)], 0.0),
                     (other.as_slice(), 0.0),
                 ];
@@ -93,12 +105,8 @@ impl<T: Scalar> RedundantForces<T> {
             } else {
                 let sides = [(Guard::StickUpper(f), -1.0), (Guard::StickLower(f), 1.0)];
                 for (guard, sign) in sides {
-                    self.bound(
-                        guard,
-                        normal_sign,
-                        [(&[(i, sign), limit], constant)],
-                        dynamics,
-                    );
+                    let terms = [&[(i, sign)], &limits[..]].concat();
+                    self.bound(guard, normal_sign, [(&terms, constant)], dynamics);
                 }
             }
         }

@@ -295,13 +295,11 @@ impl<T: Scalar> RedundantForces<T> {
             out[row] = !self.least.freedom.is_determined(i);
         }
         for (f, friction) in d.frictions.iter().enumerate() {
-            let source = match friction.normal {
-                Normal::Contact(c) => d.contacts[c].row,
-                Normal::Constraint(i) => d.constraints[i].row,
-                Normal::Given(_) => continue,
-            };
+            if let Normal::Given(_) = friction.normal {
+                continue;
+            }
             if let FrictionMode::Slip(_) = dynamics.mode().frictions[f] {
-                let open = out[source];
+                let open = friction.normal.rows(d).any(|source| out[source]);
                 out[friction.row..friction.row + friction.components].fill(open);
             }
         }

@@ -127,8 +127,8 @@ pub enum Restitution {
 pub struct Friction {
     /// Name.
     pub head: Head,
-    /// The contact or constraint whose force presses.
-    pub on: Option<Reference>,
+    /// The contact or the constraint whose force presses, or the constraints whose forces do together.
+    pub on: Vec<Reference>,
     /// One slip velocity, or a list of two.
     pub slip: Expr,
     /// How strong it is.

@@ -1,6 +1,7 @@
 //! A declaration without some of its items: what a run has that leaves them out.
 
 use super::{Declaration, Item, ItemKind, Name, Reference};
+use std::slice;
 
 impl Declaration {
     /// Takes out the items of these names, and the frictions and constraints that act only together with them. Outputs,
@@ -12,7 +13,7 @@ impl Declaration {
         }
         let is_gone = |name: &Name| names.contains(&name.text.as_str());
         self.items.retain(|item| {
-            let (name, carrier) = identity(item);
+            let (name, carriers) = identity(item);
             let watches = matches!(
                 item.kind,
                 ItemKind::Observe(_)
@@ -23,29 +24,29 @@ impl Declaration {
             );
             !watches
                 && !name.is_some_and(is_gone)
-                && !carrier.is_some_and(|carrier| is_gone(&carrier.name))
+                && !carriers.iter().any(|carrier| is_gone(&carrier.name))
         });
     }
 }
 
 /// The name of an item that can be left out, and what it acts together with.
-pub(super) fn identity(item: &Item) -> (Option<&Name>, Option<&Reference>) {
+pub(super) fn identity(item: &Item) -> (Option<&Name>, &[Reference]) {
     match &item.kind {
         ItemKind::Kinetic(energy) | ItemKind::Potential(energy) => {
-            (energy.head.as_ref().map(|head| &head.name), None)
+            (energy.head.as_ref().map(|head| &head.name), &[])
         }
         ItemKind::Constraint(constraint) => {
             let contact = constraint.while_contact.as_ref();
             (
                 Some(&constraint.head.name),
-                contact.map(|(_, contact)| contact),
+                contact.map_or(&[], |(_, contact)| slice::from_ref(contact)),
             )
         }
-        ItemKind::Contact(contact) => (Some(&contact.head.name), None),
-        ItemKind::Friction(friction) => (Some(&friction.head.name), friction.on.as_ref()),
-        ItemKind::Force(force) => (Some(&force.head.name), None),
-        ItemKind::Dissipation(dissipation) => (Some(&dissipation.head.name), None),
-        _ => (None, None),
+        ItemKind::Contact(contact) => (Some(&contact.head.name), &[]),
+        ItemKind::Friction(friction) => (Some(&friction.head.name), &friction.on),
+        ItemKind::Force(force) => (Some(&force.head.name), &[]),
+        ItemKind::Dissipation(dissipation) => (Some(&dissipation.head.name), &[]),
+        _ => (None, &[]),
     }
 }
 

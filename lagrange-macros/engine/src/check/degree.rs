@@ -87,7 +87,7 @@ impl Bounds<'_> {
             match friction.normal {
                 Normal::Given(e) => parts.push(e),
                 Normal::Contact(contact) => parts.extend(mechanics.contacts[contact].0),
-                Normal::Constraint(_) => {}
+                Normal::Constraint(_) | Normal::Resultant(_) => {}
             }
             if friction.rows.len() > 1 {
                 // Slip over speed: the speed is a root of squares.

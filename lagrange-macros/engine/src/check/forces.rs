@@ -97,6 +97,8 @@ fn normal_force<A: Arithmetic>(
             };
             (mechanics.system.contact_row(contact), factor)
         }
+        // No check looks at modes in which such a friction slips.
+        Normal::Resultant(_) => return Err(Stuck::Impossible),
         Normal::Constraint(constraint) => {
             let negative = mode.normal_signs[constraint] == Sign::Negative;
             (constraint, a.integer(if negative { -1 } else { 1 }))

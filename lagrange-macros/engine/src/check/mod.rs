@@ -32,7 +32,7 @@ mod tests;
 use crate::ast::Declaration;
 use crate::derive::Equations;
 use crate::diagnostics::{Code, Diagnostics};
-use crate::model::{self, Branch, Check, Scope, System};
+use crate::model::{self, Branch, Check, Normal, Scope, System};
 use crate::modes::{self, Mode};
 use crate::symbolic::{ExprId, Pool};
 use mechanics::Mechanics;
@@ -112,6 +112,14 @@ struct Prover<'a> {
 }
 
 impl Prover<'_> {
+    /// A friction that slips in one of these modes, pressed by constraints together: its equations are not linear.
+    fn slips_on_resultant(&self, modes: &[Mode]) -> Option<usize> {
+        let frictions = self.system.frictions.iter().enumerate();
+        let pressed = frictions.filter(|(_, f)| matches!(f.normal, Normal::Resultant(_)));
+        let slips = |f: usize| modes.iter().any(|mode| mode.frictions[f].slips());
+        pressed.map(|(f, _)| f).find(|&f| slips(f))
+    }
+
     fn judge(&mut self, check: &Check, sink: &mut Diagnostics) -> Option<Verdict> {
         let modes = modes::all(self.system).under(&check.conditions);
         let count = modes.count();
@@ -122,6 +130,11 @@ impl Prover<'_> {
         let signed = |mode: Mode| mode.with_normal_signs(self.system);
         let mut modes: Vec<Mode> = modes.iter().flat_map(signed).collect();
         modes.retain(|mode| !self.contradicts(check, mode));
+        if let Some(friction) = self.slips_on_resultant(&modes) {
+            let name = &self.system.frictions[friction].name.text;
+            sink.report(Code::CheckSlips, check.extent, &[name]);
+            return None;
+        }
         let claim = self.pool.sub(check.left, check.right);
         let claim = self.pool.substitute(claim, &self.mechanics.applied);
         let (mut proven, mut tested) = (0, None);

@@ -204,6 +204,11 @@ fn feasible(pool: &Pool, region: &Region, numbers: &mut Floating) -> Result<bool
                 }
                 force(numbers, i).abs()
             }
+            Normal::Resultant(resultant) => {
+                let constraints = mechanics.system.resultants[resultant].iter();
+                let square: f64 = constraints.map(|&i| force(numbers, i).powi(2)).sum();
+                square.sqrt()
+            }
         };
         match state {
             FrictionState::Inactive => {}

@@ -24,7 +24,7 @@ pub(super) fn frictions(sheet: &mut Sheet) -> Vec<Friction<OutputId>> {
         let components = friction.slip.len();
         let given = match friction.normal {
             Normal::Given(e) => Some(e),
-            Normal::Contact(_) | Normal::Constraint(_) => None,
+            Normal::Contact(_) | Normal::Constraint(_) | Normal::Resultant(_) => None,
         };
         let (at_rest, sliding) = (friction.static_coefficient, friction.kinetic_coefficient);
         let mut simple = |kind: &str, e: ExprId| {

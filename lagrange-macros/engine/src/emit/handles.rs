@@ -124,6 +124,11 @@ fn items(system: &System) -> Vec<Handle<'_>> {
         let on = match f.normal {
             Normal::Contact(c) => format!(" on contact `{}`", s.contacts[c].name.text),
             Normal::Constraint(c) => format!(" on constraint `{}`", s.constraints[c].name.text),
+            Normal::Resultant(r) => {
+                let names = s.resultants[r].iter();
+                let names = names.map(|&c| format!("`{}`", s.constraints[c].name.text));
+                format!(" on constraints {}", names.collect::<Vec<_>>().join(", "))
+            }
             Normal::Given(_) => String::new(),
         };
         (&f.name, format!("{on}: slip {}", slip.join(", ")))

@@ -52,8 +52,13 @@ fn written(kind: &ItemKind, names: &Names, items: &mut Vec<Item>) {
         }
         ItemKind::Contact(item) => add("contact", head_name(&item.head), contact(item, names)),
         ItemKind::Friction(item) => {
-            let on = item.on.as_ref().map(|on| format!(" on {}", referred(on)));
-            let title = head_name(&item.head) + &on.unwrap_or_default();
+            let on: Vec<String> = item.on.iter().map(referred).collect();
+            let on = match on.as_slice() {
+                [] => String::new(),
+                [one] => format!(" on {one}"),
+                many => format!(" on ({})", many.join(", ")),
+            };
+            let title = head_name(&item.head) + &on;
             add("friction", title, friction(item, names));
         }
         ItemKind::Force(force) => {

@@ -50,7 +50,7 @@ impl Work<'_> {
         let item = &self.equations.system.frictions[friction];
         let normal = match item.normal {
             Normal::Contact(contact) => self.normal_force(contact),
-            Normal::Constraint(_) => return None,
+            Normal::Constraint(_) | Normal::Resultant(_) => return None,
             Normal::Given(e) => e,
         };
         let pool = self.pool();
@@ -72,6 +72,12 @@ impl Work<'_> {
             Normal::Constraint(constraint) => {
                 let letter = self.names.letter(system.constraints[constraint].force);
                 Formula::Absolute(Box::new(Formula::Letter(letter)))
+            }
+            Normal::Resultant(resultant) => {
+                let constraints = system.resultants[resultant].iter();
+                let letter =
+                    |&i: &usize| Formula::Letter(self.names.letter(system.constraints[i].force));
+                norm(&constraints.map(letter).collect::<Vec<_>>())
             }
             Normal::Given(e) if self.pool().is_one(e) => return coefficient,
             Normal::Given(e) => self.reader.formula(e),

@@ -5,7 +5,7 @@ use super::elaboration::Elaboration;
 use super::meaning::Kind;
 use super::value::Value;
 use super::{Friction, Normal};
-use crate::ast::{self, Expr, ExprKind, FrictionLaw};
+use crate::ast::{self, Expr, ExprKind, FrictionLaw, Reference};
 use crate::diagnostics::Code;
 use crate::symbolic::{ExprId, Rational, Symbol};
 
@@ -14,13 +14,16 @@ const COEFFICIENT: Context = Context::new(Reach::Motion, "a coefficient of frict
 const NORMAL: Context = Context::new(Reach::Motion, NORMAL_FORCE);
 const LIMIT: Context = Context::new(Reach::Motion, "a friction force");
 
+/// Forces of no more constraints press together: space has so many directions.
+const MOST_TOGETHER: usize = 3;
+
 impl Elaboration<'_> {
     pub fn friction(&mut self, declared: &ast::Friction) {
         self.each(&declared.head, |this, name| {
-            let on = declared
-                .on
-                .as_ref()
-                .map(|on| this.item(on, &[Kind::Contact, Kind::Constraint]));
+            let on = match declared.on.as_slice() {
+                [] => None,
+                on => Some(this.bearers(on)),
+            };
             let slip = this.slip(&declared.slip, &name.text);
             this.slip = slip.as_deref().map(|components| match components {
                 &[(slip, _)] => Value::Scalar(slip),
@@ -31,10 +34,7 @@ impl Elaboration<'_> {
             let (given, at_rest, sliding) = law?;
             this.sensible(&declared.law, at_rest, sliding)?;
             let normal = match (on, given) {
-                (Some(on), _) => match on? {
-                    (Kind::Contact, contact) => Normal::Contact(contact),
-                    (_, constraint) => Normal::Constraint(constraint),
-                },
+                (Some(on), _) => on?,
                 (None, given) => Normal::Given(given?),
             };
             let slip = slip?;
@@ -49,6 +49,72 @@ impl Elaboration<'_> {
             });
             Some(this.system.frictions.len() - 1)
         });
+    }
+
+    /// What presses: a contact, a constraint, or constraints together.
+    fn bearers(&mut self, on: &[Reference]) -> Option<Normal> {
+        if let [one] = on {
+            let normal = match self.item(one, &[Kind::Contact, Kind::Constraint])? {
+                (Kind::Contact, contact) => Normal::Contact(contact),
+                (_, constraint) => Normal::Constraint(constraint),
+            };
+            return self.presses_one_way(normal, one).then_some(normal);
+        }
+        let mut constraints = Vec::new();
+        for reference in on {
+            let (_, constraint) = self.item(reference, &[Kind::Constraint])?;
+            if constraints.contains(&constraint) {
+                let name = &reference.name;
+                self.sink.report(Code::SameTwice, name, &[&name.text]);
+                return None;
+            }
+            constraints.push(constraint);
+        }
+        let first = &on[0].name;
+        if constraints.len() > MOST_TOGETHER {
+            let (most, many) = (format!("up to {MOST_TOGETHER} constraints"), on.len());
+            self.sink
+                .report(Code::ArgumentCount, first, &[&"on", &most, &many]);
+            return None;
+        }
+        constraints.sort_unstable();
+        let condition = |&i: &usize| self.system.constraints[i].while_contact;
+        let conditions: Vec<_> = constraints.iter().map(condition).collect();
+        if conditions.iter().any(|other| *other != conditions[0]) {
+            let hint = "constraints press together if all hold always, or all `while` one contact";
+            let text = "these constraints do not hold at the same times";
+            self.sink.report(Code::Bearing, first, &[&text, &hint]);
+            return None;
+        }
+        let known = self.system.resultants.iter();
+        let place = known.clone().position(|known| *known == constraints);
+        let resultant = place.unwrap_or(known.len());
+        let normal = Normal::Resultant(resultant);
+        if place.is_none() {
+            self.system.resultants.push(constraints);
+        }
+        on.iter()
+            .all(|reference| self.presses_one_way(normal, reference))
+            .then_some(normal)
+    }
+
+    /// Whether no friction before this one has the force of the same constraint together with others.
+    fn presses_one_way(&mut self, normal: Normal, at: &Reference) -> bool {
+        let constraints = self.system.pressing(normal);
+        let other = self.system.frictions.iter().find(|friction| {
+            let others = self.system.pressing(friction.normal);
+            friction.normal != normal && others.iter().any(|i| constraints.contains(i))
+        });
+        let Some(other) = other else {
+            return true;
+        };
+        let text = format!(
+            "`{}` is pressed by other constraints than this friction",
+            other.name.text
+        );
+        let hint = "frictions of one bearing name the same constraints";
+        self.sink.report(Code::Bearing, &at.name, &[&text, &hint]);
+        false
     }
 
     /// (given normal force, μs, μk); a limit is the coefficient of the normal force 1.

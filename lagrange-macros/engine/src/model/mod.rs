@@ -87,6 +87,8 @@ pub struct System {
     pub contacts: Vec<Contact>,
     /// Frictions.
     pub frictions: Vec<Friction>,
+    /// Constraints whose forces press frictions together, as those of a bearing.
+    pub resultants: Vec<Vec<usize>>,
     /// Applied forces.
     pub forces: Vec<Force>,
     /// Rayleigh dissipations.
@@ -142,6 +144,7 @@ impl System {
             constraints: Vec::new(),
             contacts: Vec::new(),
             frictions: Vec::new(),
+            resultants: Vec::new(),
             forces: Vec::new(),
             dissipations: Vec::new(),
             branches: Vec::new(),
@@ -354,6 +357,8 @@ pub enum Normal {
     Contact(usize),
     /// |λ| of constraint i.
     Constraint(usize),
+    /// √Σλ² of resultant i.
+    Resultant(usize),
     /// An expression in q, v, t; 1 for `limit`.
     Given(ExprId),
 }

@@ -31,7 +31,20 @@ impl System {
         match self.frictions[friction].normal {
             Normal::Contact(contact) => Some(contact),
             Normal::Constraint(constraint) => self.constraints[constraint].while_contact,
+            Normal::Resultant(_) => {
+                let first = self.pressing(self.frictions[friction].normal)[0];
+                self.constraints[first].while_contact
+            }
             Normal::Given(_) => None,
+        }
+    }
+
+    /// The constraints whose forces press a friction.
+    pub fn pressing(&self, normal: Normal) -> Vec<usize> {
+        match normal {
+            Normal::Constraint(constraint) => vec![constraint],
+            Normal::Resultant(resultant) => self.resultants[resultant].clone(),
+            Normal::Contact(_) | Normal::Given(_) => Vec::new(),
         }
     }
 }

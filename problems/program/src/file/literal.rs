@@ -177,7 +177,7 @@ macro_rules! variants {
 structs! {
     Description {
         name documentation parameters coordinates needs constants motion report mass inertia forcing rows couplings kinetic potential
-        constraints contacts frictions forces dissipations branches energy momenta observes stops marks starts units impacts
+        constraints contacts frictions resultants forces dissipations branches energy momenta observes stops marks starts units impacts
     }
     Parameter { name documentation unit tex domain }
     Coordinate { name unit cyclic }
@@ -210,7 +210,7 @@ structs! {
 variants! {
     ValueRef { Zero; Constant Node }
     Restitution { ; Newton Poisson }
-    Normal { ; Contact Constraint Given }
+    Normal { ; Contact Constraint Resultant Given }
     Condition { ; Closed Open Sticks Slips }
     Impacts { Together InTurn }
     Domain { Any Positive NonNegative }

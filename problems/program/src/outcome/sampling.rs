@@ -226,6 +226,11 @@ impl Limits {
                     factor * instant.forces[contact.row]
                 }
                 Normal::Constraint(i) => instant.forces[description.constraints[i].row].abs(),
+                Normal::Resultant(i) => {
+                    let constraints = description.resultants[i].iter();
+                    let force = |&i: &usize| instant.forces[description.constraints[i].row];
+                    constraints.map(force).fold(0.0, f64::hypot)
+                }
                 Normal::Given(place) => dynamics.motion(place),
             };
             Some(dynamics.motion(coefficient) * normal)

@@ -9,6 +9,7 @@ mod directions;
 mod enumeration;
 mod guesses;
 
+use super::bearing::Turned;
 use super::collision::Collision;
 use super::complement::Linear;
 use super::pattern::{Pattern, Phase};
@@ -38,6 +39,7 @@ pub(super) struct Search<T> {
     problem: Linear,
     relaxation: Relaxation,
     factors: Equilibrated<f64>,
+    pub(super) turned: Turned<T>,
     /// Touches that take part, and frictions that can act.
     taking: Vec<usize>,
     acting: Vec<usize>,
@@ -47,6 +49,14 @@ pub(super) struct Search<T> {
 impl<T: Scalar> Search<T> {
     /// Finds a combination that holds and leaves it in `pattern`; false if there is none.
     pub fn find(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
+        match c.bearings.is_empty() {
+            true => self.find_straight(c, phase),
+            false => self.find_turned(c, phase),
+        }
+    }
+
+    /// The same for frictions that single rows press.
+    pub(super) fn find_straight(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
         self.others.clear();
         self.taking.clear();
         self.taking

@@ -73,6 +73,15 @@ impl Writer<'_> {
         })
     }
 
+    pub(super) fn resultants(&self) -> Vec<TokenStream> {
+        let resultants = self.program.equations.system.resultants.iter();
+        let list = |constraints: &Vec<usize>| {
+            let constraints = constraints.iter().copied().map(index);
+            quote!(&[#(#constraints),*])
+        };
+        resultants.map(list).collect()
+    }
+
     pub(super) fn frictions(&self) -> Vec<TokenStream> {
         let core = self.core();
         let equations = &self.program.equations;
@@ -91,6 +100,10 @@ impl Writer<'_> {
                 (Normal::Constraint(constraint), _) => {
                     let constraint = index(constraint);
                     quote!(#core::__private::places::Normal::Constraint(#constraint))
+                }
+                (Normal::Resultant(resultant), _) => {
+                    let resultant = index(resultant);
+                    quote!(#core::__private::places::Normal::Resultant(#resultant))
                 }
                 (Normal::Given(_), given) => {
                     let given = given.expect("a given normal force has an output");

@@ -32,6 +32,7 @@ pub fn description(program: &Program) -> TokenStream {
     let potential = each(&system.potential, &structure.potential, effect);
     let constraints = writer.constraints();
     let (contacts, frictions) = (writer.contacts(), writer.frictions());
+    let resultants = writer.resultants();
     let forces = each(&system.forces, &structure.forces, |force, load| {
         writer.load(&force.name, load)
     });
@@ -73,6 +74,7 @@ pub fn description(program: &Program) -> TokenStream {
             constraints: &[#(#constraints),*],
             contacts: &[#(#contacts),*],
             frictions: &[#(#frictions),*],
+            resultants: &[#(#resultants),*],
             forces: &[#(#forces),*],
             dissipations: &[#(#dissipations),*],
             branches: &[#(#branches),*],

@@ -58,13 +58,17 @@ impl Checker<'_, '_> {
         self.forces.frictions.insert(element, forces.clone());
         self.one_force(&forces, &friction.slip)?;
         let normal = self.elaboration.system.frictions.get(element)?.normal;
-        let pressing = match (normal, &friction.on) {
-            (Normal::Contact(contact), Some(on)) => Some((Kind::Contact, contact, on)),
-            (Normal::Constraint(constraint), Some(on)) => Some((Kind::Constraint, constraint, on)),
-            _ => None,
+        let pressing = match normal {
+            Normal::Contact(contact) => vec![(Kind::Contact, contact)],
+            _ => {
+                let constraints = self.elaboration.system.pressing(normal).into_iter();
+                constraints.map(|i| (Kind::Constraint, i)).collect()
+            }
         };
-        if let Some((kind, item, on)) = pressing {
-            self.pressed(kind, item, on)?;
+        for ((kind, item), on) in pressing.iter().zip(&friction.on) {
+            self.pressed(*kind, *item, on)?;
+        }
+        if !pressing.is_empty() {
             let speed: Quantity = Dimension::mechanical(0, 1, -1).into();
             for slip in components {
                 self.equal(&speed, &slip, "a slip", &friction.slip)?;

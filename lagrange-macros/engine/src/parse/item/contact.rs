@@ -115,12 +115,8 @@ pub(super) fn friction(
     named(first, "friction", sink)?;
     let head = head(first, "the name of the friction", sink)?;
     let on = match first.take_word("on") {
-        None => None,
-        Some(_) => Some(reference(
-            first,
-            "the name of a contact or constraint",
-            sink,
-        )?),
+        None => Vec::new(),
+        Some(_) => bearers(first, sink)?,
     };
     first.require(":", sink)?;
     let mut given = Given::default();
@@ -148,7 +144,7 @@ pub(super) fn friction(
     if slip.is_none() {
         missing(&head, "slip velocity", "slip = …", sink);
     }
-    let law = law(keyword, &head, on.as_ref(), given, sink);
+    let law = law(keyword, &head, on.first(), given, sink);
     let (slip, law) = (slip?, law?);
     (sink.count() == before).then_some(ItemKind::Friction(Box::new(Friction {
         head,
@@ -156,6 +152,25 @@ pub(super) fn friction(
         slip,
         law,
     })))
+}
+
+/// What presses: `rim`, or the constraints of a bearing together, `(pin_x, pin_y)`.
+fn bearers(part: &mut Cursor, sink: &mut Diagnostics) -> Option<Vec<Reference>> {
+    let what = "the name of a contact or constraint";
+    let Some(group) = part.take_group(Delimiter::Parenthesis) else {
+        return Some(vec![reference(part, what, sink)?]);
+    };
+    let inside = part.inside(&group, sink)?;
+    if inside.is_at_end() {
+        inside.expected(what, sink);
+        return None;
+    }
+    let names = inside.parts(what, sink).into_iter().map(|mut name| {
+        let reference = reference(&mut name, what, sink)?;
+        leftover(&mut name, sink)?;
+        Some(reference)
+    });
+    names.collect()
 }
 
 /// Parts of a friction, by their keys.

@@ -230,6 +230,8 @@ fn slides(
                 factor = pool.mul(factor, pressing);
                 Some(constraint)
             }
+            // Nothing linear says what presses: the interpreter looks for its direction.
+            Normal::Resultant(_) => return None,
             Normal::Given(_) => {
                 let normal = whole(equations, given?, known);
                 factor = equations.system.pool.mul(factor, normal);

@@ -1,0 +1,318 @@
+//! Frictions that several constraints press together: N = √Σλ², the load of a bearing.
+//!
+//! That is not linear in the forces. With the unit vector u along λ
+//!
+//! ```text
+//! N = u·λ + ρ
+//! ```
+//!
+//! is, and where u has the direction of the λ that follows from it, ρ = 0. To solve with u and take u from the forces found is Newton's method for
+//! N = |λ|: because |λ| is homogeneous, u·λ is its tangent. In a Taylor series u is that of the beginning, and
+//!
+//! ```text
+//! 2 N₀ ρₖ = Σ_{j=1..k−1} (λⱼ·λₖ₋ⱼ − Nⱼ Nₖ₋ⱼ)
+//! ```
+//!
+//! follows from N² = λ·λ by lower coefficients alone. Where λ vanishes, u is the direction in which it begins, that of its first coefficient λₘ,
+//! and the same holds of the coefficients from there on.
+
+use super::interpreted::{Extent, ResultantRegisters};
+use super::{Dynamics, EvaluationError};
+use crate::arithmetic::Scalar;
+use crate::program::{MAX_ORDER, Register};
+
+/// What is across of forces, as a part of them, where u has their direction: N misses its square.
+const ALONG: f64 = 1e-13;
+
+/// So often is a direction taken anew; each time squares what it misses.
+const MOST_TURNS: usize = 60;
+
+/// A direction that is not found to this part is not found.
+const FOUND: f64 = 1e-6;
+
+/// Forces below this part of what their loads could make of them may vanish,
+const SMALL: f64 = 1e-6;
+
+/// and do if they are smaller by this than a coefficient of a higher order, over the time in which the series changes. As the force is small for
+/// no longer than it takes to grow, the motion misses the square of it.
+const VANISHING: f64 = 1e-8;
+
+/// A force or its coefficient; of two constraints the third is zero.
+type Vector<T> = [T; 3];
+
+/// The directions of resultants, one for each of a description.
+#[derive(Clone, Debug)]
+pub(super) struct Resultants<T> {
+    of: Vec<Resultant<T>>,
+}
+
+#[derive(Clone, Debug)]
+struct Resultant<T> {
+    /// u
+    along: Vector<T>,
+    /// The order in which λ begins; none if it stays zero.
+    leading: Option<usize>,
+    /// Coefficients of λ and N in the series under way.
+    forces: [Vector<T>; MAX_ORDER + 1],
+    normal: [T; MAX_ORDER + 1],
+}
+
+impl<T: Scalar> Resultants<T> {
+    pub(super) fn new(count: usize) -> Self {
+        let zero = T::zero();
+        let one = Resultant {
+            along: [zero; 3],
+            leading: Some(0),
+            forces: [[zero; 3]; MAX_ORDER + 1],
+            normal: [zero; MAX_ORDER + 1],
+        };
+        Self {
+            of: vec![one; count],
+        }
+    }
+
+    /// Forgets where forces pointed.
+    pub(super) fn restart(&mut self) {
+        for resultant in &mut self.of {
+            (resultant.along, resultant.leading) = ([T::zero(); 3], Some(0));
+        }
+    }
+
+    /// Begins a series, from values in the registers.
+    pub(super) fn begin(
+        &mut self,
+        given: &ResultantRegisters,
+        unknowns: &[Register],
+        registers: &mut [T],
+    ) {
+        registers[given.rest.1.index()] = T::zero();
+        let unknown = |i: usize| registers[unknowns[i].index()];
+        self.of[given.resultant].take(0, forces(given, unknown), T::zero());
+    }
+
+    /// Takes coefficient `k` of what has been solved for; returns coefficient k + 1 of ρ.
+    #[inline]
+    pub(super) fn follow(
+        &mut self,
+        given: &ResultantRegisters,
+        k: usize,
+        solution: &[T],
+        now: &[T],
+    ) -> T {
+        let of = &mut self.of[given.resultant];
+        of.take(k, forces(given, |i| solution[i]), now[given.rest.0.index()]);
+        of.rest(k + 1)
+    }
+}
+
+/// λ from the unknowns.
+fn forces<T: Scalar>(given: &ResultantRegisters, unknown: impl Fn(usize) -> T) -> Vector<T> {
+    let mut forces = [T::zero(); 3];
+    for (force, place) in forces.iter_mut().zip(&given.forces) {
+        *force = place.map_or(T::zero(), |i| -unknown(i));
+    }
+    forces
+}
+
+impl<T: Scalar> Resultant<T> {
+    /// Takes coefficient `k`: those before the first are errors.
+    #[inline]
+    fn take(&mut self, k: usize, forces: Vector<T>, rest: T) {
+        self.forces[k] = forces;
+        self.normal[k] = dot(self.along, forces) + rest;
+    }
+
+    /// Coefficient `k` of ρ.
+    fn rest(&self, k: usize) -> T {
+        let Some(first) = self.leading.filter(|&first| k >= first + 2) else {
+            return T::zero();
+        };
+        let mut sum = T::zero();
+        for j in first + 1..k {
+            let other = k + first - j;
+            sum += dot(self.forces[j], self.forces[other]) - self.normal[j] * self.normal[other];
+        }
+        sum / (self.normal[first] + self.normal[first])
+    }
+
+    /// Turns u to where λₘ points, m its first order. Returns what was across, as a part of it.
+    fn turn(&mut self, forces: Vector<T>) -> f64 {
+        let along = self.along;
+        let length = dot(forces, forces).sqrt();
+        if !(length.value() > 0.0) {
+            return 0.0;
+        }
+        self.along = forces.map(|force| force / length);
+        let change = [0, 1, 2].map(|i| (self.along[i] - along[i]).value());
+        dot(change, change).sqrt()
+    }
+}
+
+fn dot<T: Scalar>(a: Vector<T>, b: Vector<T>) -> T {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+impl<T: Scalar> Dynamics<T> {
+    /// Whether a friction slips that several constraints press together.
+    pub(super) fn presses_by_resultants(&self) -> bool {
+        !self.compiled().pattern.resultants.is_empty()
+    }
+
+    /// Solves the equations of a mode in which frictions slip that several constraints press together.
+    pub(super) fn solve_pressed(
+        &mut self,
+        extent: Extent,
+        refined: bool,
+    ) -> Result<(), EvaluationError> {
+        self.turn_until_settled(|dynamics| {
+            dynamics.place_directions();
+            dynamics.solve_system(extent, refined)?;
+            Ok(dynamics.turn_along(|given, dynamics| {
+                let registers = dynamics.registers();
+                let shape = &dynamics.compiled().interpreted()?.shape;
+                Some(forces(given, |i| registers[shape.unknowns[i].index()]))
+            }))
+        })
+    }
+
+    /// Turns directions until they settle; `turn` solves with those there are, and says what has been across of what it found.
+    fn turn_until_settled(
+        &mut self,
+        mut turn: impl FnMut(&mut Self) -> Result<f64, EvaluationError>,
+    ) -> Result<(), EvaluationError> {
+        let mut least = f64::INFINITY;
+        // The derivatives of a direction follow from those of the forces found with it.
+        let mut more = usize::from(T::DERIVATIVES > 0);
+        for _ in 0..MOST_TURNS {
+            let across = turn(self)?;
+            let settled = across <= ALONG || across < FOUND && across >= 0.5 * least;
+            if settled && more == 0 {
+                return Ok(());
+            }
+            more -= usize::from(settled);
+            least = least.min(across);
+        }
+        let d = self.description();
+        let first = self.compiled().pattern.resultants.first();
+        let first = first.map(|given| d.constraints[d.resultants[given.resultant][0]].row);
+        let row = first.unwrap_or(0);
+        Err(EvaluationError::Undetermined { row })
+    }
+
+    /// Writes the directions into the registers.
+    fn place_directions(&mut self) {
+        let (_, _, interpreted) = self.modes[self.current].parts();
+        let shape = interpreted.shape.clone();
+        for given in &shape.resultants {
+            let along = self.resultants.of[given.resultant].along;
+            for (register, along) in given.along.into_iter().zip(along) {
+                interpreted.registers[register.index()] = along;
+            }
+            interpreted.registers[given.rest.0.index()] = T::zero();
+        }
+    }
+
+    /// Turns every direction to where its forces point, as far as they are found.
+    fn turn_along(
+        &mut self,
+        forces: impl Fn(&ResultantRegisters, &Self) -> Option<Vector<T>>,
+    ) -> f64 {
+        let (_, _, interpreted) = self.modes[self.current].parts();
+        let shape = interpreted.shape.clone();
+        let mut across = 0.0_f64;
+        for given in &shape.resultants {
+            if let Some(forces) = forces(given, self) {
+                across = across.max(self.resultants.of[given.resultant].turn(forces));
+            }
+        }
+        across
+    }
+
+    /// Coefficients up to `order` in such a mode, from values in the registers.
+    pub(super) fn expand_pressed(&mut self, order: usize) -> Result<(), EvaluationError> {
+        let expand = match self.compiled().pattern.slip_directions.is_empty() {
+            true => Self::expand_anew,
+            false => Self::expand_from_rest,
+        };
+        self.find_leading(order, expand)?;
+        self.with_roots(order, expand)
+    }
+
+    /// Finds with which order forces begin that may vanish here, and where they point.
+    fn find_leading(
+        &mut self,
+        order: usize,
+        expand: fn(&mut Self, usize) -> Result<(), EvaluationError>,
+    ) -> Result<(), EvaluationError> {
+        let suspects = self.nearly_without_load();
+        for of in &mut self.resultants.of {
+            of.leading = Some(0);
+        }
+        if suspects.is_empty() {
+            return Ok(());
+        }
+        let held: Vec<Vector<T>> = self.resultants.of.iter().map(|of| of.along).collect();
+        for &i in &suspects {
+            let of = &mut self.resultants.of[i];
+            (of.along, of.leading) = ([T::zero(); 3], None);
+        }
+        self.place_directions();
+        self.solve_system(Extent::Series, true)?;
+        self.with_roots(order, expand)?;
+        let mut highest = 0;
+        for &i in &suspects {
+            let of = &mut self.resultants.of[i];
+            of.leading = first_order(&of.forces[..=order]);
+            if of.leading == Some(0) {
+                of.along = held[i];
+            }
+            highest = highest.max(of.leading.unwrap_or(0));
+        }
+        self.turn_until_settled(|dynamics| {
+            dynamics.place_directions();
+            dynamics.solve_system(Extent::Series, true)?;
+            dynamics.with_roots(highest.max(1), expand)?;
+            Ok(dynamics.turn_along(|given, dynamics| {
+                let of = &dynamics.resultants.of[given.resultant];
+                of.leading.map(|first| of.forces[first])
+            }))
+        })
+    }
+
+    /// Resultants that are small beside what the loads could make of them at the last value.
+    fn nearly_without_load(&mut self) -> Vec<usize> {
+        let solution = core::mem::take(&mut self.solution);
+        self.fill_right();
+        let right = core::mem::take(&mut self.right);
+        let (pattern, solver, interpreted) = self.modes[self.current].parts();
+        let small = |given: &&ResultantRegisters| {
+            let places = given.forces.iter().flatten();
+            let sizes = places.map(|&i| solver.force_size(i, &solution, &right).powi(2));
+            let force = forces(given, |i| solution[i]);
+            let size = sizes.sum::<f64>().sqrt();
+            !(dot(force, force).value().sqrt() > SMALL * size)
+        };
+        let found = interpreted.shape.resultants.iter().filter(small);
+        let found = found.map(|given| given.resultant).collect();
+        debug_assert_eq!(solution.len(), pattern.size());
+        (self.solution, self.right) = (solution, right);
+        found
+    }
+}
+
+/// The order of the first coefficient that is there beside those of higher order, over the time in which the last ones of them change.
+fn first_order<T: Scalar>(coefficients: &[Vector<T>]) -> Option<usize> {
+    let sizes = coefficients.iter().map(|&c| dot(c, c).value().sqrt());
+    let sizes: Vec<f64> = sizes.collect();
+    let largest = sizes.iter().fold(0.0_f64, |m, &x| m.max(x));
+    if !(largest > 0.0) {
+        return None;
+    }
+    // Jorba & Zou (2005), section 3.2.
+    let times = sizes.iter().enumerate().skip(1).filter(|(_, x)| **x > 0.0);
+    let times = times.map(|(k, x)| (largest / x).powf(1.0 / k as f64));
+    let time = times.fold(f64::INFINITY, f64::min).min(1e100);
+    let scaled: Vec<f64> = (0..).zip(&sizes).map(|(k, x)| x * time.powi(k)).collect();
+    let largest = scaled.iter().fold(0.0_f64, |m, &x| m.max(x));
+    scaled.iter().position(|&x| x > VANISHING * largest)
+}
