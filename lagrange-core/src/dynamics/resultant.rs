@@ -30,7 +30,7 @@ const MOST_TURNS: usize = 60;
 /// A direction that is not found to this part is not found.
 const FOUND: f64 = 1e-6;
 
-/// Forces below this part of what their loads could make of them may vanish,
+/// Forces below this part of the largest there have been may vanish,
 const SMALL: f64 = 1e-6;
 
 /// and do if they are smaller by this than a coefficient of a higher order, over the time in which the series changes. As the force is small for
@@ -50,6 +50,11 @@ pub(super) struct Resultants<T> {
 struct Resultant<T> {
     /// u
     along: Vector<T>,
+    /// The same at the start of the step.
+    held: Vector<T>,
+    /// |λ| at the last value, and the largest at the start of a step so far.
+    size: f64,
+    largest: f64,
     /// The order in which λ begins; none if it stays zero.
     leading: Option<usize>,
     /// Coefficients of λ and N in the series under way.
@@ -62,6 +67,9 @@ impl<T: Scalar> Resultants<T> {
         let zero = T::zero();
         let one = Resultant {
             along: [zero; 3],
+            held: [zero; 3],
+            size: 0.0,
+            largest: 0.0,
             leading: Some(0),
             forces: [[zero; 3]; MAX_ORDER + 1],
             normal: [zero; MAX_ORDER + 1],
@@ -75,6 +83,15 @@ impl<T: Scalar> Resultants<T> {
     pub(super) fn restart(&mut self) {
         for resultant in &mut self.of {
             (resultant.along, resultant.leading) = ([T::zero(); 3], Some(0));
+            (resultant.size, resultant.largest) = (0.0, 0.0);
+        }
+    }
+
+    /// Keeps the directions that there are as those at the start of a step.
+    pub(super) fn hold(&mut self) {
+        for resultant in &mut self.of {
+            resultant.held = resultant.along;
+            resultant.largest = resultant.largest.max(resultant.size);
         }
     }
 
@@ -135,11 +152,11 @@ impl<T: Scalar> Resultant<T> {
         sum / (self.normal[first] + self.normal[first])
     }
 
-    /// Turns u to where λₘ points, m its first order. Returns what was across, as a part of it.
-    fn turn(&mut self, forces: Vector<T>) -> f64 {
+    /// Turns u to where λₘ points, m its first order, if that is larger than the `least`. Returns what was across, as a part of it.
+    fn turn(&mut self, forces: Vector<T>, least: f64) -> f64 {
         let along = self.along;
         let length = dot(forces, forces).sqrt();
-        if !(length.value() > 0.0) {
+        if !(length.value() > least) {
             return 0.0;
         }
         self.along = forces.map(|force| force / length);
@@ -158,6 +175,16 @@ impl<T: Scalar> Dynamics<T> {
         !self.compiled().pattern.resultants.is_empty()
     }
 
+    /// The direction of resultant `i`, a unit vector, at the start of the step.
+    pub(crate) fn resultant_direction(&self, i: usize) -> [T; 3] {
+        self.resultants.of[i].held
+    }
+
+    /// The order of the first coefficient of resultant `i` in the last series; none if it stays zero.
+    pub(crate) fn resultant_order(&self, i: usize) -> Option<usize> {
+        self.resultants.of[i].leading
+    }
+
     /// Solves the equations of a mode in which frictions slip that several constraints press together.
     pub(super) fn solve_pressed(
         &mut self,
@@ -167,11 +194,7 @@ impl<T: Scalar> Dynamics<T> {
         self.turn_until_settled(|dynamics| {
             dynamics.place_directions();
             dynamics.solve_system(extent, refined)?;
-            Ok(dynamics.turn_along(|given, dynamics| {
-                let registers = dynamics.registers();
-                let shape = &dynamics.compiled().interpreted()?.shape;
-                Some(forces(given, |i| registers[shape.unknowns[i].index()]))
-            }))
+            Ok(dynamics.turn_to_forces())
         })
     }
 
@@ -212,18 +235,16 @@ impl<T: Scalar> Dynamics<T> {
         }
     }
 
-    /// Turns every direction to where its forces point, as far as they are found.
-    fn turn_along(
-        &mut self,
-        forces: impl Fn(&ResultantRegisters, &Self) -> Option<Vector<T>>,
-    ) -> f64 {
+    /// Turns every direction to where its forces point at this value, unless they vanish. Returns how far it did not.
+    fn turn_to_forces(&mut self) -> f64 {
         let (_, _, interpreted) = self.modes[self.current].parts();
-        let shape = interpreted.shape.clone();
+        let (shape, registers, _) = interpreted.parts();
         let mut across = 0.0_f64;
         for given in &shape.resultants {
-            if let Some(forces) = forces(given, self) {
-                across = across.max(self.resultants.of[given.resultant].turn(forces));
-            }
+            let of = &mut self.resultants.of[given.resultant];
+            let forces = forces(given, |i| registers[shape.unknowns[i].index()]);
+            of.size = dot(forces, forces).value().sqrt();
+            across = across.max(of.turn(forces, VANISHING * of.largest));
         }
         across
     }
@@ -272,30 +293,27 @@ impl<T: Scalar> Dynamics<T> {
             dynamics.place_directions();
             dynamics.solve_system(Extent::Series, true)?;
             dynamics.with_roots(highest.max(1), expand)?;
-            Ok(dynamics.turn_along(|given, dynamics| {
-                let of = &dynamics.resultants.of[given.resultant];
-                of.leading.map(|first| of.forces[first])
-            }))
+            let mut across = 0.0_f64;
+            for of in &mut dynamics.resultants.of {
+                if let Some(first) = of.leading {
+                    across = across.max(of.turn(of.forces[first], 0.0));
+                }
+            }
+            Ok(across)
         })
     }
 
-    /// Resultants that are small beside what the loads could make of them at the last value.
+    /// Resultants that are small beside what they have been.
     fn nearly_without_load(&mut self) -> Vec<usize> {
-        let solution = core::mem::take(&mut self.solution);
-        self.fill_right();
-        let right = core::mem::take(&mut self.right);
-        let (pattern, solver, interpreted) = self.modes[self.current].parts();
-        let small = |given: &&ResultantRegisters| {
-            let places = given.forces.iter().flatten();
-            let sizes = places.map(|&i| solver.force_size(i, &solution, &right).powi(2));
-            let force = forces(given, |i| solution[i]);
-            let size = sizes.sum::<f64>().sqrt();
-            !(dot(force, force).value().sqrt() > SMALL * size)
-        };
-        let found = interpreted.shape.resultants.iter().filter(small);
-        let found = found.map(|given| given.resultant).collect();
-        debug_assert_eq!(solution.len(), pattern.size());
-        (self.solution, self.right) = (solution, right);
+        let pressing = self.compiled().pattern.resultants.iter();
+        let pressing: Vec<usize> = pressing.map(|given| given.resultant).collect();
+        let mut found = Vec::new();
+        for i in pressing {
+            let of = &self.resultants.of[i];
+            if !(of.largest > 0.0 && of.size > SMALL * of.largest) {
+                found.push(i);
+            }
+        }
         found
     }
 }

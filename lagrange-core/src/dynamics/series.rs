@@ -59,14 +59,14 @@ impl<T: Scalar> Dynamics<T> {
         self.run(t, q, v, Extent::Series, true)?;
         if self.presses_by_resultants() {
             self.expand_pressed(order)?;
-            self.take_slip_directions_of_series();
+            self.take_directions_of_series();
             return Ok(false);
         }
         if self.compiled().pattern.slip_directions.is_empty() {
             match self.start_series(order) {
                 Err(EvaluationError::NoSeries { .. }) => {
                     self.with_roots(order, Self::expand_anew)?;
-                    self.take_slip_directions_of_series();
+                    self.take_directions_of_series();
                     Ok(false)
                 }
                 started => started.map(|()| true),
@@ -74,7 +74,7 @@ impl<T: Scalar> Dynamics<T> {
         } else {
             self.with_roots(order, Self::expand_from_rest)?;
             // Beside slips that begin others go on, and turn.
-            self.take_slip_directions_of_series();
+            self.take_directions_of_series();
             Ok(false)
         }
     }
@@ -82,7 +82,7 @@ impl<T: Scalar> Dynamics<T> {
     /// The second half of [`Self::series`].
     pub(crate) fn end_series(&mut self, order: usize) {
         self.expand(order.min(MAX_ORDER));
-        self.take_slip_directions_of_series();
+        self.take_directions_of_series();
     }
 
     /// What the interpreter does.
@@ -169,7 +169,7 @@ impl<T: Scalar> Dynamics<T> {
         if let (_, _, Some(series)) = interpreted.parts() {
             series.take_lane(pack, lane, order);
         }
-        self.take_slip_directions_of_series();
+        self.take_directions_of_series();
     }
 
     /// Coefficients 1…`order` of everything.

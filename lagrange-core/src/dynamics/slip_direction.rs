@@ -159,7 +159,7 @@ pub(crate) fn approach(mut slip: impl FnMut(f64) -> [f64; 2]) -> Option<[f64; 2]
 
 impl<T: Scalar> Dynamics<T> {
     /// The direction in which friction `f` of two components slips, or begins to: that at the last [`Self::series`],
-    /// [`Self::set_slip_direction`] or [`Self::take_slip_directions`].
+    /// [`Self::set_slip_direction`] or [`Self::take_directions`].
     pub fn slip_direction(&self, f: usize) -> [T; 2] {
         self.slip_directions.of(f)
     }
@@ -236,8 +236,10 @@ impl<T: Scalar> Dynamics<T> {
         1.0 + sizes.sum::<f64>()
     }
 
-    /// Takes the slip directions of all sliding frictions of two components from their slips at the last value.
-    pub fn take_slip_directions(&mut self) {
+    /// Takes the slip directions of all sliding frictions of two components from their slips at the last value, and those of the forces that
+    /// press together.
+    pub fn take_directions(&mut self) {
+        self.resultants.hold();
         for f in 0..self.description().frictions.len() {
             if self.turns(f) {
                 self.head_along(f, self.slip(f));
@@ -246,7 +248,8 @@ impl<T: Scalar> Dynamics<T> {
     }
 
     /// The same from the series.
-    pub(super) fn take_slip_directions_of_series(&mut self) {
+    pub(super) fn take_directions_of_series(&mut self) {
+        self.resultants.hold();
         for f in 0..self.description().frictions.len() {
             if self.turns(f) {
                 self.head_along(f, self.slip_coefficient(f, 0));

@@ -231,7 +231,7 @@ impl<T: Scalar> Dynamics<T> {
     }
 
     /// Right-hand sides from the registers.
-    pub(super) fn fill_right(&mut self) {
+    fn fill_right(&mut self) {
         let (_, _, interpreted) = self.modes[self.current].parts();
         let right = interpreted.shape.right.iter();
         self.right.clear();

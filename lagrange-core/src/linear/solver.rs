@@ -161,18 +161,6 @@ impl<T: Scalar> Solver<T> {
         *taken = taken.max(size);
     }
 
-    /// What the terms of equation `row`, at accelerations `x`, could make of its force: their sizes over the compliance of the row.
-    pub(crate) fn force_size(&self, row: usize, x: &[T], b: &[T]) -> f64 {
-        let (n, size) = (self.coordinates, self.size);
-        let (mut terms, mut compliance) = (b[row].value().abs(), 0.0);
-        for (j, a) in self.matrix[row * size..][..n].iter().enumerate() {
-            let a = a.value();
-            terms += (a * x[j].value()).abs();
-            compliance += a * a / self.matrix[j * size + j].value().abs();
-        }
-        terms / compliance
-    }
-
     /// Whether a row was set aside.
     pub(crate) fn has_rows_aside(&self) -> bool {
         self.aside.contains(&true)

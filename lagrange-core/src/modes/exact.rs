@@ -43,7 +43,14 @@ pub fn exact<T: Scalar>(
             };
             slip(f, along, dynamics)
         }
-        Guard::NormalForceSign(f) => normal(f, mode, dynamics),
+        Guard::NormalForceSign(f) => match d.frictions[f].normal {
+            together @ Normal::Resultant(i) => {
+                let along = dynamics.resultant_direction(i);
+                let forces = together.rows(d).map(|row| dynamics.force(row));
+                forces.zip(along).fold(T::zero(), |sum, (x, u)| sum + x * u)
+            }
+            _ => normal(f, mode, dynamics),
+        },
         Guard::Branch(b) => {
             let branch = &d.branches[b];
             let value = if branch.after_solve {

@@ -40,7 +40,7 @@ pub enum Guard {
     StickCone(usize),
     /// Slip of a sliding friction, along its direction (of two components, that at the start of the step).
     Slip(usize),
-    /// Multiplier of the constraint that carries a friction, times its held sign.
+    /// Multiplier of the constraint that carries a friction, times its held sign; of several their part along the force at the start of the step.
     NormalForceSign(usize),
     /// Guard of a branch, times its held side.
     Branch(usize),
@@ -137,7 +137,7 @@ pub fn guards_of_mode<T: Scalar>(
             FrictionMode::Stick => out.extend(stick_guards(f, friction)),
             FrictionMode::Slip(_) => {
                 out.push(Guard::Slip(f));
-                if let Normal::Constraint(_) = friction.normal {
+                if by_constraints(friction) {
                     out.push(Guard::NormalForceSign(f));
                 }
             }
@@ -156,13 +156,17 @@ pub fn fades<T: Scalar>(f: usize, dynamics: &Dynamics<T>) -> bool {
     !matches!(place, ValueRef::Node(_)) && dynamics.motion(place).value() == 0.0
 }
 
-/// The guards of friction `f` while it sticks.
-pub fn stick_guards(f: usize, friction: &Friction) -> impl Iterator<Item = Guard> {
-    let by_constraints = matches!(
+/// Whether constraints press a friction, whose N has no known sign.
+fn by_constraints(friction: &Friction) -> bool {
+    matches!(
         friction.normal,
         Normal::Constraint(_) | Normal::Resultant(_)
-    );
-    let cone = friction.components > 1 || by_constraints;
+    )
+}
+
+/// The guards of friction `f` while it sticks.
+pub fn stick_guards(f: usize, friction: &Friction) -> impl Iterator<Item = Guard> {
+    let cone = friction.components > 1 || by_constraints(friction);
     let pair = [Guard::StickUpper(f), Guard::StickLower(f)];
     cone.then_some(Guard::StickCone(f))
         .into_iter()
@@ -400,7 +404,14 @@ fn of_products<T: Scalar>(guard: Guard, mode: &Mode, reading: &Reading<'_, T>, o
             add(out, (1.0, reading.force(d.frictions[f].row)));
         }
         Guard::StickCone(f) => stick_cone(f, mode, reading, out),
-        Guard::NormalForceSign(f) => normal_force(f, mode, reading, out),
+        Guard::NormalForceSign(f) => match d.frictions[f].normal {
+            together @ Normal::Resultant(i) => {
+                for (row, along) in together.rows(d).zip(reading.resultant_direction(i)) {
+                    add(out, (along.value(), reading.force(row)));
+                }
+            }
+            _ => normal_force(f, mode, reading, out),
+        },
         Guard::Slip(f) => {
             let friction = &d.frictions[f];
             let rows = &d.rows[friction.row..friction.row + friction.components];

@@ -84,6 +84,12 @@ impl<'a, T: Scalar> Reading<'a, T> {
         dynamics.slip_direction(f)
     }
 
+    /// The direction of the forces that press together, at the start of the step.
+    pub fn resultant_direction(&self, i: usize) -> [T; 3] {
+        let (Reading::Values(dynamics) | Reading::Series(dynamics)) = self;
+        dynamics.resultant_direction(i)
+    }
+
     /// The force of a row.
     #[inline]
     pub fn force(&self, row: usize) -> Terms<'a, T> {

@@ -464,7 +464,7 @@ impl GuardPolynomials {
             step.state_into(T::from_f64(s), q, v);
             dynamics.value(step.t + step.h * T::from_f64(s), q, v)?;
             if j == 0 {
-                dynamics.take_slip_directions();
+                dynamics.take_directions();
             }
             // Stops and marks read the tape after the solve.
             dynamics.report_value();

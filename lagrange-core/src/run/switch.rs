@@ -118,7 +118,13 @@ impl<T: Scalar> Run<T> {
         }
         self.hand_over();
         let facts = &mut self.switcher.status.facts;
-        facts.located.extend_from_slice(&self.locator.fallen);
+        // A force of several constraints that has turned ends no mode: its friction slips on, pressed in another direction.
+        let turned = |guard: &Guard| match *guard {
+            Guard::NormalForceSign(f) => matches!(d.frictions[f].normal, Normal::Resultant(_)),
+            _ => false,
+        };
+        let ending = self.locator.fallen.iter().filter(|guard| !turned(guard));
+        facts.located.extend(ending);
         facts.again = self.switcher.stuck.len() > 1;
         for guard in &self.locator.fallen {
             if let Guard::Composite(k) = *guard {
@@ -177,6 +183,7 @@ impl<T: Scalar> Run<T> {
             self.project(true)?;
         }
         self.begin_series().map_err(|e| self.error(e))?;
+        self.note_forces_that_begin();
         if self.dynamics.has_dependent_rows() {
             let valued = self.now.valued;
             self.evaluate_all_rows()?;
@@ -195,6 +202,18 @@ impl<T: Scalar> Run<T> {
         self.log_changes(impulses, self.switcher.decider.decision.ambiguous);
         self.switcher.collider.outcome = outcome;
         self.stops_of_the_mode()
+    }
+
+    /// Forces of several constraints that vanish at this instant begin in the direction in which their frictions are pressed.
+    fn note_forces_that_begin(&mut self) {
+        for (f, friction) in self.description().frictions.iter().enumerate() {
+            if let Normal::Resultant(i) = friction.normal
+                && let Some(order) = self.dynamics.resultant_order(i).filter(|&order| order > 0)
+            {
+                let guard = Guard::NormalForceSign(f);
+                self.locator.zeros.push((guard, order));
+            }
+        }
     }
 
     /// A gap that stays zero because other contacts are closed is off by the error of positions, on either side.

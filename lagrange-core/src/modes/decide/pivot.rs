@@ -142,7 +142,10 @@ impl<T: Scalar> Choices<'_, T> {
                 Guard::StickCone(f) => mode.frictions[f] = self.leaves_its_cone(f),
                 Guard::Slip(f) => mode.frictions[f] = FrictionMode::Stick,
                 Guard::NormalForceSign(f) => {
-                    if let FrictionMode::Slip(sliding) = &mut mode.frictions[f] {
+                    // What several constraints press has a direction, and no sign.
+                    if let Normal::Constraint(_) = self.description().frictions[f].normal
+                        && let FrictionMode::Slip(sliding) = &mut mode.frictions[f]
+                    {
                         sliding.normal_sign = -sliding.normal_sign;
                     }
                 }
