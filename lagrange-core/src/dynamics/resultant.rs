@@ -37,6 +37,9 @@ const SMALL: f64 = 1e-6;
 /// no longer than it takes to grow, the motion misses the square of it.
 const VANISHING: f64 = 1e-8;
 
+/// So many coefficients at least say when a series changes.
+const FEWEST: usize = 8;
+
 /// A force or its coefficient; of two constraints the third is zero.
 type Vector<T> = [T; 3];
 
@@ -91,7 +94,6 @@ impl<T: Scalar> Resultants<T> {
     pub(super) fn hold(&mut self) {
         for resultant in &mut self.of {
             resultant.held = resultant.along;
-            resultant.largest = resultant.largest.max(resultant.size);
         }
     }
 
@@ -185,6 +187,17 @@ impl<T: Scalar> Dynamics<T> {
         self.resultants.of[i].leading
     }
 
+    /// Takes the forces at the last value, at the start of a step, for the size of those to come.
+    pub(crate) fn note_loads(&mut self) {
+        let d = self.description();
+        for (i, constraints) in d.resultants.iter().enumerate() {
+            let force = |&c: &usize| self.force(d.constraints[c].row).value();
+            let size = constraints.iter().map(force).fold(0.0, f64::hypot);
+            let of = &mut self.resultants.of[i];
+            of.largest = of.largest.max(size);
+        }
+    }
+
     /// Solves the equations of a mode in which frictions slip that several constraints press together.
     pub(super) fn solve_pressed(
         &mut self,
@@ -255,7 +268,7 @@ impl<T: Scalar> Dynamics<T> {
             true => Self::expand_anew,
             false => Self::expand_from_rest,
         };
-        self.find_leading(order, expand)?;
+        self.find_leading(order.max(FEWEST), expand)?;
         self.with_roots(order, expand)
     }
 
@@ -326,10 +339,11 @@ fn first_order<T: Scalar>(coefficients: &[Vector<T>]) -> Option<usize> {
     if !(largest > 0.0) {
         return None;
     }
-    // Jorba & Zou (2005), section 3.2.
-    let times = sizes.iter().enumerate().skip(1).filter(|(_, x)| **x > 0.0);
-    let times = times.map(|(k, x)| (largest / x).powf(1.0 / k as f64));
-    let time = times.fold(f64::INFINITY, f64::min).min(1e100);
+    // The last coefficients shrink or grow by the time in which the series changes; every other one may vanish.
+    let (last, middle) = (sizes.len() - 1, sizes.len() / 2);
+    let near = |k: usize| sizes[k].max(sizes[k - 1]);
+    let time = (near(middle) / near(last)).powf(1.0 / (last - middle) as f64);
+    let time = if time.is_normal() { time } else { 1.0 };
     let scaled: Vec<f64> = (0..).zip(&sizes).map(|(k, x)| x * time.powi(k)).collect();
     let largest = scaled.iter().fold(0.0_f64, |m, &x| m.max(x));
     scaled.iter().position(|&x| x > VANISHING * largest)

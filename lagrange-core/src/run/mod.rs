@@ -352,6 +352,9 @@ impl<T: Scalar> Run<T> {
             }
         }
         self.watch_stiffness();
+        if self.now.valued {
+            self.dynamics.note_loads();
+        }
         let hit = self.accepted_step()?;
         self.check_resolution()?;
         let end = hit.end();
