@@ -34,7 +34,9 @@ impl CompositeGuard {
         let pairs = self.parts.iter().zip(&other.parts);
         let near = |x: ConePlane, y: ConePlane| {
             let [east, north] = [0, 1].map(|k| x.along[k] - y.along[k]);
-            x.normal_sign == y.normal_sign && east.hypot(north) < SAME_SIDE
+            let pressing = [0, 1, 2].map(|k| x.pressing[k] - y.pressing[k]);
+            let turned = pressing.into_iter().fold(0.0, f64::hypot);
+            turned < SAME_SIDE && east.hypot(north) < SAME_SIDE
         };
         let alike = |(x, y): (&Part, &Part)| {
             x.guard == y.guard && x.plane.zip(y.plane).is_none_or(|(x, y)| near(x, y))

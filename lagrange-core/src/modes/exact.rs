@@ -1,7 +1,7 @@
 //! A guard as a number of the run's own scalar: what located the root is a double, its derivatives come from here.
 
 use super::composite::CompositeGuard;
-use super::guard::{Guard, cone_unit};
+use super::guard::{Guard, by_constraints, cone_unit};
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
@@ -67,7 +67,15 @@ pub fn exact<T: Scalar>(
                 (Guard::StickCone(f), Some(plane)) => {
                     let along = plane.along.into_iter().enumerate();
                     let along = along.take(d.frictions[f].components);
-                    let limit = T::from_f64(plane.normal_sign) * limit(f, mode, dynamics);
+                    let friction = &d.frictions[f];
+                    let limit = if by_constraints(friction) {
+                        let forces = friction.normal.rows(d).map(|row| dynamics.force(row));
+                        let parts = forces.zip(plane.pressing);
+                        dynamics.motion(friction.static_coefficient)
+                            * parts.fold(T::zero(), |sum, (x, part)| sum + T::from_f64(part) * x)
+                    } else {
+                        limit(f, mode, dynamics)
+                    };
                     along.fold(limit, |rest, (k, part)| {
                         rest - T::from_f64(part) * force(f, k)
                     })

@@ -157,7 +157,7 @@ pub fn fades<T: Scalar>(f: usize, dynamics: &Dynamics<T>) -> bool {
 }
 
 /// Whether constraints press a friction, whose N has no known sign.
-fn by_constraints(friction: &Friction) -> bool {
+pub fn by_constraints(friction: &Friction) -> bool {
     matches!(
         friction.normal,
         Normal::Constraint(_) | Normal::Resultant(_)
@@ -178,8 +178,8 @@ pub fn stick_guards(f: usize, friction: &Friction) -> impl Iterator<Item = Guard
 pub struct ConePlane {
     /// Its direction u.
     pub along: [f64; 2],
-    /// N is the force of a constraint times this sign, or that of a contact.
-    pub normal_sign: f64,
+    /// N is the sum of the forces of the constraints that press times these, the sign of one or the direction of several; or that of a contact.
+    pub pressing: [f64; 3],
 }
 
 /// What a guard is made of.
@@ -451,10 +451,15 @@ fn limit<T: Scalar>(f: usize, mode: &Mode, reading: &Reading<'_, T>, out: &mut [
     if let Some((coefficient, normal)) = linear_limit(f, reading.dynamics()) {
         return add(out, (coefficient, normal.read(reading)));
     }
-    let friction = &reading.description().frictions[f];
     let mut normal = [0.0; LENGTH];
     let normal = &mut normal[..out.len()];
     normal_force(f, mode, reading, normal);
+    add_static_share(f, normal, reading, out);
+}
+
+/// Adds μs times the series `normal`.
+fn add_static_share<T: Scalar>(f: usize, normal: &[f64], reading: &Reading<T>, out: &mut [f64]) {
+    let friction = &reading.description().frictions[f];
     match reading.motion(friction.static_coefficient) {
         Terms::One(coefficient) => {
             for (c, x) in out.iter_mut().zip(normal) {
@@ -518,8 +523,17 @@ pub fn cone_side<T: Scalar>(
 ) {
     let friction = &reading.description().frictions[f];
     out.fill(0.0);
-    limit(f, mode, reading, out);
-    out.iter_mut().for_each(|c| *c *= plane.normal_sign);
+    if by_constraints(friction) {
+        let mut normal = [0.0; LENGTH];
+        let normal = &mut normal[..out.len()];
+        let rows = friction.normal.rows(reading.description());
+        for (row, part) in rows.zip(plane.pressing) {
+            add(normal, (part, reading.force(row)));
+        }
+        add_static_share(f, normal, reading, out);
+    } else {
+        limit(f, mode, reading, out);
+    }
     for (k, &part) in plane.along.iter().enumerate().take(friction.components) {
         add(out, (-part, reading.force(friction.row + k)));
     }

@@ -144,7 +144,8 @@ impl Sizes {
         dynamics.motion(coefficient).value().abs() * self.normal(f, dynamics)
     }
 
-    fn limit<T: Scalar>(&self, f: usize, dynamics: &Dynamics<T>) -> f64 {
+    /// Size of the forces that keep friction `f` from slipping.
+    pub fn limit<T: Scalar>(&self, f: usize, dynamics: &Dynamics<T>) -> f64 {
         let friction = &dynamics.description().frictions[f];
         let rows = friction.row..friction.row + friction.components;
         let force = rows.map(|row| self.row(row, dynamics).force);

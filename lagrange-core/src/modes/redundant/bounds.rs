@@ -12,8 +12,8 @@ use crate::system::{Normal, ValueRef};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bound {
     pub guard: Guard,
-    /// Sign of the constraint force that carries a friction.
-    normal_sign: f64,
+    /// What the forces of the constraints that carry a friction count.
+    pressing: [f64; 3],
 }
 
 impl Bound {
@@ -21,7 +21,7 @@ impl Bound {
     pub fn plane(&self, along: [f64; 2]) -> ConePlane {
         ConePlane {
             along,
-            normal_sign: self.normal_sign,
+            pressing: self.pressing,
         }
     }
 }
@@ -52,7 +52,8 @@ impl<T: Scalar> RedundantForces<T> {
         let mode = dynamics.mode();
         for (c, contact) in d.contacts.iter().enumerate() {
             if let Some(i) = index(contact.row) {
-                self.bound(Guard::Normal(c), 1.0, [(&[(i, 1.0)], 0.0)], dynamics);
+                let gap = [(&[(i, 1.0)][..], 0.0)];
+                self.bound(Guard::Normal(c), [1.0, 0.0, 0.0], gap, dynamics);
             }
         }
         for (f, friction) in d.frictions.iter().enumerate() {
@@ -63,7 +64,7 @@ impl<T: Scalar> RedundantForces<T> {
                 continue;
             };
             let coefficient = number(friction.static_coefficient);
-            let mut normal_sign = 1.0;
+            let mut pressing = [1.0, 0.0, 0.0];
             let mut limits = Vec::with_capacity(3);
             let constant = match friction.normal {
                 Normal::Contact(c) => {
@@ -79,17 +80,24 @@ impl<T: Scalar> RedundantForces<T> {
                     let Some(row) = index(d.constraints[on].row) else {
                         continue;
                     };
-                    normal_sign = self.signs[on];
-                    limits.push((row, coefficient * normal_sign));
+                    pressing[0] = self.signs[on];
+                    limits.push((row, coefficient * pressing[0]));
                     0.0
                 }
                 // What the least forces press in their direction, others press at least.
                 normal @ Normal::Resultant(_) => {
-                    let rows = normal.rows(d).filter_map(index);
-                    limits.extend(rows.map(|row| (row, self.least.forces[row].value())));
-                    let size = limits.iter().map(|(_, force)| force * force).sum::<f64>();
-                    let part = coefficient / size.sqrt().max(f64::MIN_POSITIVE);
-                    limits.iter_mut().for_each(|(_, along)| *along *= part);
+                    let Some(rows) = normal.rows(d).map(index).collect::<Option<Vec<_>>>() else {
+                        continue;
+                    };
+                    let force = |&row: &usize| self.least.forces[row].value();
+                    let size = rows.iter().map(force).fold(0.0, f64::hypot);
+                    if size > 0.0 {
+                        for (part, row) in pressing.iter_mut().zip(&rows) {
+                            *part = force(row) / size;
+                        }
+                    }
+                    let parts = pressing.map(|part| coefficient * part);
+                    limits.extend(rows.into_iter().zip(parts));
                     0.0
                 }
             };
@@ -101,12 +109,12 @@ impl<T: Scalar> RedundantForces<T> {
                     (&[(i, 1.0)], 0.0),
                     (other.as_slice(), 0.0),
                 ];
-                self.bound(Guard::StickCone(f), normal_sign, cone, dynamics);
+                self.bound(Guard::StickCone(f), pressing, cone, dynamics);
             } else {
                 let sides = [(Guard::StickUpper(f), -1.0), (Guard::StickLower(f), 1.0)];
                 for (guard, sign) in sides {
                     let terms = [&[(i, sign)], &limits[..]].concat();
-                    self.bound(guard, normal_sign, [(&terms, constant)], dynamics);
+                    self.bound(guard, pressing, [(&terms, constant)], dynamics);
                 }
             }
         }
@@ -117,19 +125,20 @@ impl<T: Scalar> RedundantForces<T> {
     fn bound<const N: usize>(
         &mut self,
         guard: Guard,
-        normal_sign: f64,
+        pressing: [f64; 3],
         rows: [Linear<'_>; N],
         dynamics: &Dynamics<T>,
     ) {
         let least = &self.least;
-        let own = || {
-            let own = self.sizes.of(guard, dynamics);
-            if N == 1 { own } else { own.sqrt() }
+        let own = || match guard {
+            // Without the unit that the squares of its guard have.
+            Guard::StickCone(f) => self.sizes.limit(f, dynamics),
+            _ => self.sizes.of(guard, dynamics),
         };
         let force = |i: usize| least.forces[i].value();
         let is_open = (self.bounds.forces).add(rows, force, &least.freedom, own);
         if is_open {
-            self.bounds.list.push(Bound { guard, normal_sign });
+            self.bounds.list.push(Bound { guard, pressing });
         }
     }
 }
