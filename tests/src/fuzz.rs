@@ -3,7 +3,7 @@
 use crate::Random;
 use crate::families::Family;
 use crate::families::contacts::{Balls, Blocks, Chain, Rod};
-use crate::families::linkages::{Bead, FourBar};
+use crate::families::linkages::{Bead, FourBar, RoughPins};
 use crate::families::moving::{Feeder, Shaken};
 use crate::families::space::{Body, Charge, Puck};
 use crate::families::supports::{Beam, CartPole, Cranks};
@@ -81,7 +81,7 @@ type Draw<A> = fn(Random) -> (String, A);
 
 /// Draws run `number` and asks; with everything that is needed to repeat it.
 pub fn ask<Q: Question>(number: u64) -> (String, Q::Answer) {
-    let families: [Draw<Q::Answer>; 14] = [
+    let families: [Draw<Q::Answer>; 15] = [
         draw::<Q, Chain>,
         draw::<Q, Rod>,
         draw::<Q, Balls>,
@@ -96,6 +96,7 @@ pub fn ask<Q: Question>(number: u64) -> (String, Q::Answer) {
         draw::<Q, Beam>,
         draw::<Q, CartPole>,
         draw::<Q, Cranks>,
+        draw::<Q, RoughPins>,
     ];
     let mut random = Random::new(number.wrapping_mul(0x2545_f491_4f6c_dd1d));
     let family = random.bits() as usize % families.len();

@@ -163,7 +163,7 @@ fn empty(core: &TokenStream) -> TokenStream {
             potential: &[],
             constraints: &[],
             contacts: &[],
-            frictions: &[],
+            frictions: &[], resultants: &[],
             forces: &[],
             dissipations: &[],
             branches: &[],

@@ -4,6 +4,7 @@ mod aligned;
 mod at_limit;
 mod backlash;
 mod ball;
+mod bearing;
 mod belt;
 mod bending_guards;
 mod bicycle;
