@@ -313,6 +313,7 @@ fn by_definition(
                             Some(d.constraints[c].row),
                         ),
                         Normal::Given(normal) => (-mu * read(normal) * direction, None),
+                        Normal::Resultant(_) => unreachable!("none is drawn"),
                     });
                 }
             }

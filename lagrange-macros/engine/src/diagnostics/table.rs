@@ -123,8 +123,8 @@ table! {
     FrictionGrows "E513" "kinetic friction {0} is larger than static friction {1}" "the kinetic coefficient is at most the static one: are they exchanged?";
     RestitutionRange "E514" "{0} is no restitution" "it lies between 0 (no bounce) and 1 (no loss)";
 
-    Bearing "E516" "{0}" "{1}";
     KineticAtRest "E515" "{0}" "a kinetic energy is made of `der(…)`; an energy of position belongs in `potential`, with the opposite sign";
+    Bearing "E516" "{0}" "{1}";
 
     NoInertia "E601" "the coordinate `{0}` has no inertia" "no kinetic energy contains `der({0})`, and no constraint ties it: add its kinetic energy or remove it";
     EquationCount "E602" "{0} equations for {1} unknowns" "{2}";
@@ -146,8 +146,8 @@ table! {
     CheckFalse "E801" "`{0}` does not hold{1}" "{2}";
     CheckNever "E802" "no state fulfils the condition of this check" "{0}";
     CheckModes "E803" "the condition leaves {0} modes open" "say of more contacts whether they are `open` or `closed`; `open(name)` of an indexed contact means all its elements that are not named otherwise";
-    CheckSlips "E805" "`{0}` may slip here, pressed by several constraints together" "no check follows that: say `sticks({0})` in the condition, and compare numbers of a run in a test";
     CheckPremise "E804" "`{0}` is known after the equations are solved" "the condition of a check is made of positions, velocities, `closed(…)`, `open(…)`, `sticks(…)` and `slips(…)`";
+    CheckSlips "E805" "`{0}` may slip here, pressed by several constraints together" "no check follows that: say `sticks({0})` in the condition, and compare numbers of a run in a test";
 
     UnknownForm "E901" "`{0}` is not the name of a form" "{1}";
     PlaceCount "E902" "`{0}` takes {1}, not {2}" "places are joined by `to`";

@@ -112,7 +112,7 @@ impl Elaboration<'_> {
             "`{}` is pressed by other constraints than this friction",
             other.name.text
         );
-        let hint = "frictions of one bearing name the same constraints";
+        let hint = "frictions of one bearing name the same constraints; a bearing beside it has constraints of its own, on a body between them";
         self.sink.report(Code::Bearing, &at.name, &[&text, &hint]);
         false
     }

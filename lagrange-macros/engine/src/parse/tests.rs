@@ -228,6 +228,8 @@ fn mistakes_point_at_their_token() {
         ("check(a: x)", "2:10 E001"),
         ("friction(f on c: slip = x)", "2:10 E018"),
         ("friction(f on c: static = x)", "2:10 E018"),
+        ("friction(f on (): slip = x, static = 1)", "2:16 E001"),
+        ("friction(f on (a, b c): slip = x, static = 1)", "2:21 E026"),
         ("friction(f: slip = x, static = 1)", "2:10 E018"),
         ("friction(f: slip = x, static = 1, limit = 2)", "2:1 E023"),
         ("friction(f on c: slp = x, static = 1)", "2:18 E016"),

@@ -8,14 +8,15 @@
 mod directions;
 mod enumeration;
 mod guesses;
+mod turned;
 
-use super::bearing::Turned;
 use super::collision::Collision;
 use super::complement::Linear;
 use super::pattern::{Pattern, Phase};
 use super::relaxation::Relaxation;
 use crate::arithmetic::Scalar;
 use crate::linear::{Equilibrated, Lemke};
+use turned::Turned;
 
 /// So many combinations are tried one after the other before Lemke's method is asked.
 const FEW: usize = 100;
@@ -39,7 +40,7 @@ pub(super) struct Search<T> {
     problem: Linear,
     relaxation: Relaxation,
     factors: Equilibrated<f64>,
-    pub(super) turned: Turned<T>,
+    turned: Turned<T>,
     /// Touches that take part, and frictions that can act.
     taking: Vec<usize>,
     acting: Vec<usize>,
@@ -56,7 +57,7 @@ impl<T: Scalar> Search<T> {
     }
 
     /// The same for frictions that single rows press.
-    pub(super) fn find_straight(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
+    fn find_straight(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
         self.others.clear();
         self.taking.clear();
         self.taking

@@ -86,6 +86,18 @@ fn mistakes_point_at_their_token() {
         ("contact(c: x >= 0), potential = c", "2:33 E406"),
         ("contact(c: x >= 0), dissipation(d: c*a)", "2:36 E506"),
         (
+            "constraint(c: x == 0), friction(f on (c, c): slip = der(y), static = 1)",
+            "2:42 E510",
+        ),
+        (
+            "constraint(c: x == 0), friction(f on (c, none): slip = der(y), static = 1)",
+            "2:42 E201",
+        ),
+        (
+            "constraint(c[k in 0..3]: q[k] == 0), constraint(d: x == 0), friction(f on (c[0], c[1], c[2], d): slip = der(y), static = 1)",
+            "2:76 E301",
+        ),
+        (
             "contact(c: x >= 0), dissipation(d: c^2*der(x))",
             "2:36 E509",
         ),
