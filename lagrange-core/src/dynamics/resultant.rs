@@ -85,7 +85,8 @@ impl<T: Scalar> Resultants<T> {
     /// Forgets where forces pointed.
     pub(super) fn restart(&mut self) {
         for resultant in &mut self.of {
-            (resultant.along, resultant.leading) = ([T::zero(); 3], Some(0));
+            (resultant.along, resultant.held) = ([T::zero(); 3], [T::zero(); 3]);
+            resultant.leading = Some(0);
             (resultant.size, resultant.largest) = (0.0, 0.0);
         }
     }
@@ -317,17 +318,16 @@ impl<T: Scalar> Dynamics<T> {
     }
 
     /// Resultants that are small beside what they have been.
-    fn nearly_without_load(&mut self) -> Vec<usize> {
+    fn nearly_without_load(&self) -> Vec<usize> {
         let pressing = self.compiled().pattern.resultants.iter();
-        let pressing: Vec<usize> = pressing.map(|given| given.resultant).collect();
-        let mut found = Vec::new();
-        for i in pressing {
-            let of = &self.resultants.of[i];
-            if !(of.largest > 0.0 && of.size > SMALL * of.largest) {
-                found.push(i);
-            }
-        }
-        found
+        let small = |i: &usize| {
+            let of = &self.resultants.of[*i];
+            !(of.largest > 0.0 && of.size > SMALL * of.largest)
+        };
+        pressing
+            .map(|given| given.resultant)
+            .filter(small)
+            .collect()
     }
 }
 

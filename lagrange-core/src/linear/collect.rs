@@ -205,7 +205,8 @@ impl KktTerms {
             }
             let mut strength = friction.kinetic_coefficient;
             // What presses is the sum of these: 1 or a number, times the force of a row or 1.
-            let mut pressing = vec![(None, None)];
+            let mut pressing = [(None, None); 4];
+            let mut parts = 1;
             match friction.normal {
                 Normal::Contact(contact) => {
                     if let Some(factor) = description.contacts[contact].normal_factor {
@@ -230,13 +231,15 @@ impl KktTerms {
                     });
                     pressing[0].0 = Some(ValueRef::Node(nodes.rest));
                     let constraints = description.resultants[resultant].iter();
-                    pressing.extend(constraints.zip(nodes.along).map(|(&constraint, along)| {
+                    for (&constraint, along) in constraints.zip(nodes.along) {
                         let row = description.constraints[constraint].row;
-                        (Some(ValueRef::Node(along)), Some(row))
-                    }));
+                        pressing[parts] = (Some(ValueRef::Node(along)), Some(row));
+                        parts += 1;
+                    }
                 }
                 Normal::Given(normal) => strength = program.mul(constants, strength, normal),
             }
+            let pressing = &pressing[..parts];
             let acts = |row: usize| self.acting.binary_search(&row).is_ok();
             if !pressing.iter().filter_map(|part| part.1).all(acts) {
                 continue;
@@ -272,7 +275,7 @@ impl KktTerms {
                         program.mul(constants, strength, ValueRef::Node(node))
                     }
                 };
-                for &(share, source) in &pressing {
+                for &(share, source) in pressing {
                     let share = share.map(|share| program.mul(constants, factor, share));
                     slides.push(Slide {
                         row,
