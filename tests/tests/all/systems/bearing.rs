@@ -401,3 +401,94 @@ fn a_top_in_a_ball_joint() {
     let lost = top.mu * top.radius * sum * h / 6.0 / top.axial;
     agree("spin", spin(&trajectory), 100.0 - lost, 1e-9);
 }
+
+/// Two bars on rough pins, the lower of which may strike a wall; of numbers with derivatives, or without.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x[2], y[2], theta[2]),
+    define(
+        right[k in 0..2] = length/2 * sin(theta[k]),
+        down[k in 0..2] = length/2 * cos(theta[k]),
+        turn[k in 0..2] = der(theta[k]) - sum(i in 0..k: der(theta[i])),
+    ),
+    kinetic = sum(k in 0..2: mass/2 * (der(x[k])^2 + der(y[k])^2 + length^2/12 * der(theta[k])^2)),
+    potential = sum(k in 0..2: mass * 9.81 * y[k]),
+    constraint(pin_x[k in 0..2]: x[k] - right[k] == sum(i in 0..k: x[i] + right[i])),
+    constraint(pin_y[k in 0..2]: y[k] + down[k] == sum(i in 0..k: y[i] - down[i])),
+    friction(rub[k in 0..2] on (pin_x[k], pin_y[k]): slip = radius * turn[k], static = mu),
+    contact(wall: x[1] + right[1] <= far, restitution = 0.6),
+    start(hanging: y[0] = -length/2, y[1] = -3*length/2, theta[0] = 0, der(theta[0]) = rate, der(theta[1]) = 2*rate,
+        der(x[0]) = length/2 * rate, der(x[1]) = 2*length * rate),
+)]
+struct Bars<T = f64> {
+    mass: T,
+    length: T,
+    radius: T,
+    mu: T,
+    far: T,
+    rate: T,
+}
+
+/// Derivatives by friction, radius and start go through reversals and an impact, as differences of runs do.
+#[test]
+fn derivatives_go_through_bearings() {
+    use lagrange_core::arithmetic::Dual;
+    const NUMBERS: [f64; 3] = [0.3, 0.08, 3.0];
+    let until = 1.2;
+    let plain = |[mu, radius, rate]: [f64; 3]| {
+        let bars = Bars {
+            mass: 1.5,
+            length: 0.6,
+            radius,
+            mu,
+            far: 0.7,
+            rate,
+        };
+        let trajectory = run(&bars, bars.at(<Bars>::HANGING), until);
+        let times: Vec<f64> = trajectory.events().iter().map(|e| e.time).collect();
+        (
+            words(&trajectory),
+            times,
+            trajectory.final_state().q.clone(),
+        )
+    };
+    let [mu, radius, rate] = [0, 1, 2].map(|k| Dual::<f64, 3>::variable(NUMBERS[k], k));
+    let bars = Bars {
+        mass: Dual::constant(1.5),
+        length: Dual::constant(0.6),
+        radius,
+        mu,
+        far: Dual::constant(0.7),
+        rate,
+    };
+    let simulation = Simulation::new(&bars).tolerance(1e-12);
+    let dual = simulation
+        .run(bars.at(<Bars>::HANGING), 0.0..until)
+        .expect("runs");
+    let (names, times, _) = plain(NUMBERS);
+    println!("{names:?} {times:?}");
+    assert!(names.iter().any(|name| name == "wall impact"), "{names:?}");
+    assert!(
+        names.iter().any(|name| name.ends_with("reverses")),
+        "{names:?}"
+    );
+    for k in 0..3 {
+        let h = 1e-5 * NUMBERS[k];
+        let at = |step: f64| {
+            let mut numbers = NUMBERS;
+            numbers[k] += step * h;
+            let (others, times, q) = plain(numbers);
+            assert_eq!(names, others);
+            [times, q].concat()
+        };
+        // Of order four.
+        let sides = [at(-2.0), at(-1.0), at(1.0), at(2.0)];
+        let events = dual.events().iter().map(|event| event.time.derivative[k]);
+        let end = dual.final_state().q.iter().map(|q| q.derivative[k]);
+        for (i, found) in events.chain(end).enumerate() {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|side: usize| sides[side][i]);
+            let difference = (a - 8.0 * b + 8.0 * c - d) / (12.0 * h);
+            agree(&format!("{k}, {i}"), found, difference, 2e-5);
+        }
+    }
+}
