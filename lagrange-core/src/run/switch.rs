@@ -116,6 +116,12 @@ impl<T: Scalar> Run<T> {
                 _ => {}
             }
         }
+        // Slips that were zero at this very instant still are.
+        for &(guard, _) in &self.locator.zeros {
+            if let Guard::Slip(f) = guard {
+                facts.resting[f] = true;
+            }
+        }
         self.hand_over();
         let facts = &mut self.switcher.status.facts;
         // A force of several constraints that has turned ends no mode: its friction slips on, pressed in another direction.
