@@ -547,7 +547,9 @@ impl<T: Scalar> Examination<'_, T> {
             }
             let repeats = self.events > 0 && {
                 let before = &record.events()[self.events - 1];
-                before.state == event.state && before.state_after == event.state_after
+                before.time == event.time
+                    && before.state == event.state
+                    && before.state_after == event.state_after
             };
             self.events += 1;
             let when = event.time.value();
