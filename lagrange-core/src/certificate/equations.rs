@@ -360,11 +360,11 @@ impl Equations {
     /// What friction `f` brings from the equations that its normal force balances in into others.
     fn bring_by_friction(&mut self, f: usize, brought: &mut [f64]) {
         let sizes = self.size.clone();
+        let friction = self.declaration.frictions[f];
+        let coefficient = self.values.value(friction.kinetic_coefficient);
         for source in self.d.frictions[f].normal.rows(self.d) {
             let (value, level) = self.row(source);
             let (along, square) = self.along(value, level, &sizes);
-            let friction = self.declaration.frictions[f];
-            let coefficient = self.values.value(friction.kinetic_coefficient);
             let force = coefficient * along / square.max(f64::MIN_POSITIVE);
             for &slip in friction.slip {
                 self.along(slip, Level::Velocity, &sizes);

@@ -6,8 +6,7 @@
 //! N = u·λ + ρ
 //! ```
 //!
-//! is, and where u has the direction of the λ that follows from it, ρ = 0. To solve with u and take u from the forces found is Newton's method for
-//! N = |λ|: because |λ| is homogeneous, u·λ is its tangent. In a Taylor series u is that of the beginning, and
+//! is, and where u has the direction of the λ that follows from it, ρ = 0 ([`crate::linear::direction`] looks for it). In a Taylor series u is that of the beginning, and
 //!
 //! ```text
 //! 2 N₀ ρₖ = Σ_{j=1..k−1} (λⱼ·λₖ₋ⱼ − Nⱼ Nₖ₋ⱼ)
@@ -19,16 +18,8 @@
 use super::interpreted::{Extent, ResultantRegisters};
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::Scalar;
+use crate::linear::direction::{Vector, dot, length, settle};
 use crate::program::{MAX_ORDER, Register};
-
-/// What is across of forces, as a part of them, where u has their direction: N misses its square.
-const ALONG: f64 = 1e-13;
-
-/// So often is a direction taken anew; each time squares what it misses.
-const MOST_TURNS: usize = 60;
-
-/// A direction that is not found to this part is not found.
-const FOUND: f64 = 1e-6;
 
 /// Forces below this part of the largest there have been may vanish,
 const SMALL: f64 = 1e-6;
@@ -39,9 +30,6 @@ const VANISHING: f64 = 1e-8;
 
 /// So many coefficients at least say when a series changes.
 const FEWEST: usize = 8;
-
-/// A force or its coefficient; of two constraints the third is zero.
-type Vector<T> = [T; 3];
 
 /// The directions of resultants, one for each of a description.
 #[derive(Clone, Debug)]
@@ -158,18 +146,14 @@ impl<T: Scalar> Resultant<T> {
     /// Turns u to where λₘ points, m its first order, if that is larger than the `least`. Returns what was across, as a part of it.
     fn turn(&mut self, forces: Vector<T>, least: f64) -> f64 {
         let along = self.along;
-        let length = dot(forces, forces).sqrt();
+        let length = length(forces);
         if !(length.value() > least) {
             return 0.0;
         }
         self.along = forces.map(|force| force / length);
         let change = [0, 1, 2].map(|i| (self.along[i] - along[i]).value());
-        dot(change, change).sqrt()
+        self::length(change)
     }
-}
-
-fn dot<T: Scalar>(a: Vector<T>, b: Vector<T>) -> T {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 impl<T: Scalar> Dynamics<T> {
@@ -217,17 +201,8 @@ impl<T: Scalar> Dynamics<T> {
         &mut self,
         mut turn: impl FnMut(&mut Self) -> Result<f64, EvaluationError>,
     ) -> Result<(), EvaluationError> {
-        let mut least = f64::INFINITY;
-        // The derivatives of a direction follow from those of the forces found with it.
-        let mut more = usize::from(T::DERIVATIVES > 0);
-        for _ in 0..MOST_TURNS {
-            let across = turn(self)?;
-            let settled = across <= ALONG || across < FOUND && across >= 0.5 * least;
-            if settled && more == 0 {
-                return Ok(());
-            }
-            more -= usize::from(settled);
-            least = least.min(across);
+        if settle::<T, _>(|| turn(self))? {
+            return Ok(());
         }
         let d = self.description();
         let first = self.compiled().pattern.resultants.first();
@@ -257,7 +232,7 @@ impl<T: Scalar> Dynamics<T> {
         for given in &shape.resultants {
             let of = &mut self.resultants.of[given.resultant];
             let forces = forces(given, |i| registers[shape.unknowns[i].index()]);
-            of.size = dot(forces, forces).value().sqrt();
+            of.size = length(forces).value();
             across = across.max(of.turn(forces, VANISHING * of.largest));
         }
         across
@@ -333,7 +308,7 @@ impl<T: Scalar> Dynamics<T> {
 
 /// The order of the first coefficient that is there beside those of higher order, over the time in which the last ones of them change.
 fn first_order<T: Scalar>(coefficients: &[Vector<T>]) -> Option<usize> {
-    let sizes = coefficients.iter().map(|&c| dot(c, c).value().sqrt());
+    let sizes = coefficients.iter().map(|&c| length(c).value());
     let sizes: Vec<f64> = sizes.collect();
     let largest = sizes.iter().fold(0.0_f64, |m, &x| m.max(x));
     if !(largest > 0.0) {

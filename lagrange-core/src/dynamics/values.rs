@@ -121,7 +121,7 @@ impl<T: Scalar> Dynamics<T> {
             }
         }
         interpreted.evaluate(extent, MOTION);
-        if !interpreted.shape.resultants.is_empty() {
+        if self.presses_by_resultants() {
             return self.solve_pressed(extent, refined);
         }
         self.solve_system(extent, refined)

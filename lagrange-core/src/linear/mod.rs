@@ -15,6 +15,7 @@ mod collect;
 mod conic;
 mod consistent;
 mod direct;
+pub(crate) mod direction;
 mod eliminate;
 mod least_norm;
 mod lemke;

@@ -44,11 +44,7 @@ pub fn exact<T: Scalar>(
             slip(f, along, dynamics)
         }
         Guard::NormalForceSign(f) => match d.frictions[f].normal {
-            together @ Normal::Resultant(i) => {
-                let along = dynamics.resultant_direction(i);
-                let forces = together.rows(d).map(|row| dynamics.force(row));
-                forces.zip(along).fold(T::zero(), |sum, (x, u)| sum + x * u)
-            }
+            Normal::Resultant(i) => pressing(f, dynamics.resultant_direction(i), dynamics),
             _ => normal(f, mode, dynamics),
         },
         Guard::Branch(b) => {
@@ -69,10 +65,8 @@ pub fn exact<T: Scalar>(
                     let along = along.take(d.frictions[f].components);
                     let friction = &d.frictions[f];
                     let limit = if by_constraints(friction) {
-                        let forces = friction.normal.rows(d).map(|row| dynamics.force(row));
-                        let parts = forces.zip(plane.pressing);
                         dynamics.motion(friction.static_coefficient)
-                            * parts.fold(T::zero(), |sum, (x, part)| sum + T::from_f64(part) * x)
+                            * pressing(f, plane.pressing.map(T::from_f64), dynamics)
                     } else {
                         limit(f, mode, dynamics)
                     };
@@ -131,6 +125,15 @@ fn normal<T: Scalar>(f: usize, mode: &Mode, dynamics: &Dynamics<T>) -> T {
         }
         Normal::Given(place) => dynamics.motion(place),
     }
+}
+
+/// Σ part λ of the rows that press friction `f`.
+fn pressing<T: Scalar>(f: usize, parts: [T; 3], dynamics: &Dynamics<T>) -> T {
+    let d = dynamics.description();
+    let forces = d.frictions[f].normal.rows(d).map(|row| dynamics.force(row));
+    forces
+        .zip(parts)
+        .fold(T::zero(), |sum, (x, part)| sum + part * x)
 }
 
 /// √Σx², without derivatives where that is zero.

@@ -405,10 +405,9 @@ fn of_products<T: Scalar>(guard: Guard, mode: &Mode, reading: &Reading<'_, T>, o
         }
         Guard::StickCone(f) => stick_cone(f, mode, reading, out),
         Guard::NormalForceSign(f) => match d.frictions[f].normal {
-            together @ Normal::Resultant(i) => {
-                for (row, along) in together.rows(d).zip(reading.resultant_direction(i)) {
-                    add(out, (along.value(), reading.force(row)));
-                }
+            Normal::Resultant(i) => {
+                let along = reading.resultant_direction(i).map(|u| u.value());
+                add_pressing(f, along, reading, out);
             }
             _ => normal_force(f, mode, reading, out),
         },
@@ -526,10 +525,7 @@ pub fn cone_side<T: Scalar>(
     if by_constraints(friction) {
         let mut normal = [0.0; LENGTH];
         let normal = &mut normal[..out.len()];
-        let rows = friction.normal.rows(reading.description());
-        for (row, part) in rows.zip(plane.pressing) {
-            add(normal, (part, reading.force(row)));
-        }
+        add_pressing(f, plane.pressing, reading, normal);
         add_static_share(f, normal, reading, out);
     } else {
         limit(f, mode, reading, out);
@@ -566,6 +562,14 @@ pub fn normal_force<T: Scalar>(f: usize, mode: &Mode, reading: &Reading<'_, T>, 
             add_root(out, square);
         }
         Normal::Given(place) => add(out, (1.0, reading.motion(place))),
+    }
+}
+
+/// Adds Σ part λ of the rows that press friction `f`.
+fn add_pressing<T: Scalar>(f: usize, parts: [f64; 3], reading: &Reading<'_, T>, out: &mut [f64]) {
+    let d = reading.description();
+    for (row, part) in d.frictions[f].normal.rows(d).zip(parts) {
+        add(out, (part, reading.force(row)));
     }
 }
 

@@ -3,6 +3,7 @@
 //! The rows of the constraints are turned so that the first one has the direction u of the impulse, and the others none: N is then |Λ| of one row.
 
 use crate::arithmetic::Scalar;
+use crate::linear::direction::{Vector, length};
 
 /// Rows that press together, two or three.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,7 +13,7 @@ pub(super) struct Bearing {
 }
 
 /// Orthonormal axes, as many as there are rows; the first is u.
-pub(super) type Axes<T> = [[T; 3]; 3];
+pub(super) type Axes<T> = [Vector<T>; 3];
 
 impl Bearing {
     /// Of these rows, if all are there.
@@ -50,7 +51,7 @@ impl Bearing {
     }
 
     /// The impulse in the rows.
-    pub fn impulse<T: Scalar>(&self, impulses: &[T]) -> [T; 3] {
+    pub fn impulse<T: Scalar>(&self, impulses: &[T]) -> Vector<T> {
         let mut impulse = [T::zero(); 3];
         for (x, &row) in impulse.iter_mut().zip(self.rows()) {
             *x = impulses[row];
@@ -59,7 +60,7 @@ impl Bearing {
     }
 
     /// Axes whose first is along `u`, which is no longer than it has elements.
-    pub fn axes<T: Scalar>(&self, u: [T; 3]) -> Axes<T> {
+    pub fn axes<T: Scalar>(&self, u: Vector<T>) -> Axes<T> {
         let mut axes = [u, [T::zero(); 3], [T::zero(); 3]];
         if self.count == 2 {
             axes[1] = [-u[1], u[0], T::zero()];
@@ -79,8 +80,4 @@ impl Bearing {
         axes[2] = [(1, 2), (2, 0), (0, 1)].map(|(i, j)| a[i] * b[j] - a[j] * b[i]);
         axes
     }
-}
-
-pub(super) fn length<T: Scalar>(x: [T; 3]) -> T {
-    (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt()
 }

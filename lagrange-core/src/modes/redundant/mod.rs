@@ -295,9 +295,6 @@ impl<T: Scalar> RedundantForces<T> {
             out[row] = !self.least.freedom.is_determined(i);
         }
         for (f, friction) in d.frictions.iter().enumerate() {
-            if let Normal::Given(_) = friction.normal {
-                continue;
-            }
             if let FrictionMode::Slip(_) = dynamics.mode().frictions[f] {
                 let open = friction.normal.rows(d).any(|source| out[source]);
                 out[friction.row..friction.row + friction.components].fill(open);

@@ -54,11 +54,12 @@ impl Elaboration<'_> {
     /// What presses: a contact, a constraint, or constraints together.
     fn bearers(&mut self, on: &[Reference]) -> Option<Normal> {
         if let [one] = on {
-            let normal = match self.item(one, &[Kind::Contact, Kind::Constraint])? {
-                (Kind::Contact, contact) => Normal::Contact(contact),
-                (_, constraint) => Normal::Constraint(constraint),
-            };
-            return self.presses_one_way(normal, one).then_some(normal);
+            let (kind, item) = self.item(one, &[Kind::Contact, Kind::Constraint])?;
+            if kind == Kind::Contact {
+                return Some(Normal::Contact(item));
+            }
+            let normal = Normal::Constraint(item);
+            return self.presses_one_way(normal, item, one).then_some(normal);
         }
         let mut constraints = Vec::new();
         for reference in on {
@@ -77,7 +78,6 @@ impl Elaboration<'_> {
                 .report(Code::ArgumentCount, first, &[&"on", &most, &many]);
             return None;
         }
-        constraints.sort_unstable();
         let condition = |&i: &usize| self.system.constraints[i].while_contact;
         let conditions: Vec<_> = constraints.iter().map(condition).collect();
         if conditions.iter().any(|other| *other != conditions[0]) {
@@ -86,24 +86,28 @@ impl Elaboration<'_> {
             self.sink.report(Code::Bearing, first, &[&text, &hint]);
             return None;
         }
-        let known = self.system.resultants.iter();
-        let place = known.clone().position(|known| *known == constraints);
-        let resultant = place.unwrap_or(known.len());
+        // In whatever order they are named.
+        let same = |known: &Vec<usize>| {
+            known.len() == constraints.len() && constraints.iter().all(|i| known.contains(i))
+        };
+        let known = self.system.resultants.iter().position(same);
+        let resultant = known.unwrap_or(self.system.resultants.len());
         let normal = Normal::Resultant(resultant);
-        if place.is_none() {
+        let mut each = constraints.iter().zip(on);
+        if !each.all(|(&i, reference)| self.presses_one_way(normal, i, reference)) {
+            return None;
+        }
+        if known.is_none() {
             self.system.resultants.push(constraints);
         }
-        on.iter()
-            .all(|reference| self.presses_one_way(normal, reference))
-            .then_some(normal)
+        Some(normal)
     }
 
-    /// Whether no friction before this one has the force of the same constraint together with others.
-    fn presses_one_way(&mut self, normal: Normal, at: &Reference) -> bool {
-        let constraints = self.system.pressing(normal);
+    /// Whether no friction before this one has the force of this constraint together with others.
+    fn presses_one_way(&mut self, normal: Normal, constraint: usize, at: &Reference) -> bool {
         let other = self.system.frictions.iter().find(|friction| {
-            let others = self.system.pressing(friction.normal);
-            friction.normal != normal && others.iter().any(|i| constraints.contains(i))
+            let mut pressing = self.system.pressing(friction.normal);
+            friction.normal != normal && pressing.any(|i| i == constraint)
         });
         let Some(other) = other else {
             return true;

@@ -30,21 +30,19 @@ impl System {
     pub fn contact_under(&self, friction: usize) -> Option<usize> {
         match self.frictions[friction].normal {
             Normal::Contact(contact) => Some(contact),
-            Normal::Constraint(constraint) => self.constraints[constraint].while_contact,
-            Normal::Resultant(_) => {
-                let first = self.pressing(self.frictions[friction].normal)[0];
-                self.constraints[first].while_contact
+            normal => {
+                (self.pressing(normal).next()).and_then(|i| self.constraints[i].while_contact)
             }
-            Normal::Given(_) => None,
         }
     }
 
     /// The constraints whose forces press a friction.
-    pub fn pressing(&self, normal: Normal) -> Vec<usize> {
-        match normal {
-            Normal::Constraint(constraint) => vec![constraint],
-            Normal::Resultant(resultant) => self.resultants[resultant].clone(),
-            Normal::Contact(_) | Normal::Given(_) => Vec::new(),
-        }
+    pub fn pressing(&self, normal: Normal) -> impl Iterator<Item = usize> {
+        let (one, together): (_, &[usize]) = match normal {
+            Normal::Constraint(constraint) => (Some(constraint), &[]),
+            Normal::Resultant(resultant) => (None, &self.resultants[resultant]),
+            Normal::Contact(_) | Normal::Given(_) => (None, &[]),
+        };
+        one.into_iter().chain(together.iter().copied())
     }
 }

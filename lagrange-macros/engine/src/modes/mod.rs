@@ -119,8 +119,8 @@ impl Mode {
     fn without(&self, system: &System, constraint: usize) -> Option<Mode> {
         let mut frictions = system.frictions.iter().zip(&self.frictions);
         let carries = frictions.any(|(friction, &state)| {
-            let pressing = system.pressing(friction.normal);
-            pressing.contains(&constraint) && state != FrictionState::Inactive
+            let mut pressing = system.pressing(friction.normal);
+            pressing.any(|i| i == constraint) && state != FrictionState::Inactive
         });
         let acts = self.acting_rows(system).contains(&constraint);
         (acts && !carries).then(|| Mode {

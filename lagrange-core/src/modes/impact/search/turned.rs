@@ -1,21 +1,13 @@
 //! Where [bearings](super::super::bearing) press frictions: the direction of each impulse is looked for.
 //!
-//! To solve with a direction and to take it anew from the impulses found is Newton's method, as for forces ([`crate::dynamics`]).
+//! How is told in [`crate::linear::direction`].
 
-use super::super::bearing::{Axes, length};
+use super::super::bearing::Axes;
 use super::super::collision::{Collision, NormalSource};
 use super::super::pattern::{Pattern, Phase, ROUNDING};
 use super::Search;
 use crate::arithmetic::Scalar;
-
-/// What is across of an impulse, as a part of it, where u has its direction: N misses its square.
-const ALONG: f64 = 1e-13;
-
-/// Where that no longer shrinks, this is as good.
-const FOUND: f64 = 1e-6;
-
-/// So often is a direction taken anew.
-const MOST_TURNS: usize = 60;
+use crate::linear::direction::{is_along, length, settle};
 
 /// A collision with its bearings turned.
 #[derive(Clone, Debug, Default)]
@@ -106,29 +98,34 @@ impl<T: Scalar> Search<T> {
         phase: &Phase<T>,
     ) -> bool {
         turned.begin(c);
-        let mut least = f64::INFINITY;
-        // The derivatives of a direction follow from those of the impulses found with it.
-        let mut more = usize::from(T::DERIVATIVES > 0);
-        for turn in 0..MOST_TURNS {
-            turned.turn(c, phase, turn > 0);
-            if !self.find_straight(&turned.collision, &turned.phase) {
-                return false;
-            }
-            let axes = turned.axes.clone();
-            let across = turned.follow(&self.pattern);
-            if turn == 0 {
-                continue;
-            }
-            if across <= ALONG || across < FOUND && across >= 0.5 * least {
-                if more == 0 {
-                    self.turn_back(c, &axes);
-                    return true;
-                }
-                more -= 1;
-            }
-            least = least.min(across);
+        // Without these frictions there is a direction to begin with.
+        if !self.solve_turned(turned, c, phase, false) {
+            return false;
         }
-        false
+        turned.follow(&self.pattern);
+        let mut axes = Vec::new();
+        let settled = settle::<T, _>(|| {
+            axes.clone_from(&turned.axes);
+            let solved = self.solve_turned(turned, c, phase, true);
+            solved.then(|| turned.follow(&self.pattern)).ok_or(())
+        });
+        let found = settled == Ok(true);
+        if found {
+            self.turn_back(c, &axes);
+        }
+        found
+    }
+
+    /// Solves with the present axes; `pressed`: with the frictions that bearings press.
+    fn solve_turned(
+        &mut self,
+        turned: &mut Turned<T>,
+        c: &Collision<T>,
+        phase: &Phase<T>,
+        pressed: bool,
+    ) -> bool {
+        turned.turn(c, phase, pressed);
+        self.find_straight(&turned.collision, &turned.phase)
     }
 
     /// Turns what was found back to the rows.
@@ -141,7 +138,7 @@ impl<T: Scalar> Search<T> {
             c.bearings.iter().all(|bearing| {
                 let [along, rest @ ..] = bearing.impulse(&other.impulses);
                 let rest = rest.map(|x| x.value().abs());
-                rest[0].max(rest[1]) <= FOUND * along.value().abs()
+                is_along(rest[0].max(rest[1]), along.value().abs())
             })
         });
         for found in others.iter_mut().chain([pattern]) {

@@ -94,6 +94,10 @@ fn mistakes_point_at_their_token() {
             "2:42 E201",
         ),
         (
+            "constraint(c[k in 0..3]: q[k] == 0), friction(f on (c[0], c[1]): slip = der(y), static = 1), friction(other on (c[2], c[1]): slip = der(y), static = 1)",
+            "2:119 E516",
+        ),
+        (
             "constraint(c[k in 0..3]: q[k] == 0), constraint(d: x == 0), friction(f on (c[0], c[1], c[2], d): slip = der(y), static = 1)",
             "2:76 E301",
         ),

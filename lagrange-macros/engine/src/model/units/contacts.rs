@@ -61,7 +61,7 @@ impl Checker<'_, '_> {
         let pressing = match normal {
             Normal::Contact(contact) => vec![(Kind::Contact, contact)],
             _ => {
-                let constraints = self.elaboration.system.pressing(normal).into_iter();
+                let constraints = self.elaboration.system.pressing(normal);
                 constraints.map(|i| (Kind::Constraint, i)).collect()
             }
         };
