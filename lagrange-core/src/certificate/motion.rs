@@ -83,6 +83,10 @@ const FIRST: usize = 4;
 /// and in this share of those that follow.
 const SHARE: f64 = 0.25;
 
+/// A step of fewer units of rounding of its time, as between two branches that change at one instant, has no inside: of an instant in it
+/// rounding says on which side of them it is.
+const NARROW: f64 = 4.0;
+
 /// What is looked at in a step besides its motion and its guards.
 #[derive(Clone, Copy, Debug)]
 struct Look {
@@ -178,10 +182,12 @@ pub(super) fn against<T: Scalar>(
             (mode, alike) = (segment.mode, 0);
         }
         alike += 1;
+        let width = (segment.h * segment.end).value();
+        let narrow = width <= NARROW * rounding * segment.t.value().abs();
         let looked = k == 0 || looked < 2.0 * share - 1.0;
         looked.then(|| Look {
             part: segment.end.value() * (0.5 + 0.5 * part),
-            balances: alike <= FIRST || signed(&mut random) < 2.0 * SHARE - 1.0,
+            balances: !narrow && (alike <= FIRST || signed(&mut random) < 2.0 * SHARE - 1.0),
         })
     });
     let chosen: Vec<Option<Look>> = chosen.collect();

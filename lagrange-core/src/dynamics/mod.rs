@@ -449,6 +449,12 @@ impl<T: Scalar> Dynamics<T> {
         place.read(&self.compiled().constants, &self.report_nodes)
     }
 
+    /// Positions and velocities of the last value.
+    pub(crate) fn positions_and_velocities(&self) -> (&[T], &[T]) {
+        let n = self.description().coordinates.len();
+        self.inputs[1..=2 * n].split_at(n)
+    }
+
     /// v̇ at the last [`Self::value`], one per coordinate.
     #[inline]
     pub fn acceleration(&self) -> &[T] {

@@ -20,7 +20,9 @@ pub const AT_REST: f64 = 1e-2;
 pub struct Sizes {
     /// 1/mⱼ, 0 where a coordinate has no inertia of its own.
     mobility: Vec<f64>,
-    /// √D of the forcing and of the rows that act, m/s² times √kg: squares of forces of 1e160 N are no numbers.
+    /// √D of the forcing, m/s² times √kg: squares of forces of 1e160 N are no numbers.
+    forced: f64,
+    /// √D of the forcing and of the rows that act.
     drive: f64,
 }
 
@@ -39,16 +41,24 @@ impl Sizes {
         }
         let forcing = self.mobility.iter().zip(d.forcing);
         let forced = forcing.map(|(m, &f)| m.sqrt() * number(f));
+        self.forced = forced.fold(0.0, f64::hypot);
+        self.take_rows(dynamics);
+    }
+
+    /// Takes the rows that act from the last value, in another mode at the same state: a friction that slips drives nothing, and where its
+    /// row nearly vanishes it would have to drive without bound to hold.
+    pub fn take_rows<T: Scalar>(&mut self, dynamics: &Dynamics<T>) {
+        let d = dynamics.description();
         let rows = dynamics.acting_rows().iter();
         let driven = rows.map(|&row| {
             let compliance = self.compliance(row, dynamics);
             if compliance > 0.0 {
-                number(d.rows[row].bias) / compliance.sqrt()
+                dynamics.motion(d.rows[row].bias).value() / compliance.sqrt()
             } else {
                 0.0
             }
         });
-        self.drive = forced.chain(driven).fold(0.0, f64::hypot);
+        self.drive = driven.fold(self.forced, f64::hypot);
     }
 
     /// Momentum of all coordinates with these speeds.

@@ -24,7 +24,7 @@ const OTHER_SIDE: f64 = 1e3;
 /// Coefficients this much smaller than all together can still be told from 0.
 pub(super) const CLEAR: f64 = 1e-10;
 
-/// So much a guard of size 1 is off by rounding.
+/// So much a guard of size 1 is off by rounding; see [`rounding`].
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Samples of a guard in a step of a Runge–Kutta method, at least.
@@ -339,8 +339,8 @@ impl GuardPolynomials {
             s,
             [tolerance, blur],
             located,
-            |error, allowed, other_side| {
-                let mut ratio = error / (allowed + ROUNDING);
+            |error, allowed, rounding, other_side| {
+                let mut ratio = error / (allowed + rounding);
                 if other_side {
                     ratio *= OTHER_SIDE;
                 }
@@ -367,13 +367,13 @@ impl GuardPolynomials {
             s,
             [tolerance, 0.0],
             located,
-            |error, allowed, _| worst = worst.max((error - ROUNDING) / allowed),
+            |error, allowed, rounding, _| worst = worst.max((error - rounding) / allowed),
         );
         worst
     }
 
-    /// Tells the error of every polynomial at part `s` of the step, what is allowed but for rounding, and whether the guard is on the other
-    /// side of zero.
+    /// Tells the error of every polynomial at part `s` of the step, what is allowed but for rounding, what rounding makes, and whether the guard
+    /// is on the other side of zero.
     #[inline(always)]
     fn errors<T: Scalar>(
         &self,
@@ -382,7 +382,7 @@ impl GuardPolynomials {
         s: f64,
         [tolerance, blur]: [f64; 2],
         located: impl Fn(Guard) -> bool,
-        mut tell: impl FnMut(f64, f64, bool),
+        mut tell: impl FnMut(f64, f64, f64, bool),
     ) {
         if !self.watches.is_empty() {
             dynamics.report_value();
@@ -400,7 +400,9 @@ impl GuardPolynomials {
             // Not all coefficients: where the series has stopped converging they are large and cancel.
             let size = value.abs() + (c[0].abs() + c[1].abs());
             let other_side = !located && (found < 0.0) != (value < 0.0);
-            tell((found - value).abs(), allowed * size, other_side);
+            let error = (found - value).abs();
+            let rounding = rounding(error, curve.guard, dynamics);
+            tell(error, allowed * size, rounding, other_side);
         }
     }
 
@@ -505,8 +507,8 @@ impl GuardPolynomials {
             let allowed = (share * tolerance).max(floor).max(INTERPOLATION);
             let value = self.value(index, mode, dynamics);
             let size = value.abs() + (c[0].abs() + c[1].abs());
-            let allowed = allowed * size + ROUNDING;
             let error = (at(c, s) - value).abs();
+            let allowed = allowed * size + rounding(error, curve.guard, dynamics);
             let ratio = if error > allowed {
                 error / allowed.max(AWAY * clearance(c))
             } else {
@@ -531,7 +533,8 @@ impl GuardPolynomials {
         let allowed = (share * tolerance).max(floor).max(INTERPOLATION);
         let (c, value) = (self.curve(index), self.value(index, mode, dynamics));
         let size = value.abs() + (c[0].abs() + c[1].abs());
-        matches!(guard, Guard::Composite(_)) || value.abs() <= allowed * size + ROUNDING
+        let allowed = allowed * size + rounding(value.abs(), guard, dynamics);
+        matches!(guard, Guard::Composite(_)) || value.abs() <= allowed
     }
 
     /// Where the first guard turns that comes close to zero without a root before, or with roots that are hardly apart: there the
@@ -587,6 +590,20 @@ impl GuardPolynomials {
             }
         }
     }
+}
+
+/// What rounding makes of a guard at the last value of `dynamics`, to be told from an `error`. Gaps and slips are differences of positions and of
+/// velocities, which may be large: those of two satellites on a rope, from the centre of the Earth.
+#[inline]
+fn rounding<T: Scalar>(error: f64, guard: Guard, dynamics: &Dynamics<T>) -> f64 {
+    let (q, v) = dynamics.positions_and_velocities();
+    let terms = match guard {
+        Guard::Gap(_) if error > ROUNDING => q,
+        Guard::Slip(_) if error > ROUNDING => v,
+        _ => return ROUNDING,
+    };
+    let larger = |size: f64, x: &T| size.max(x.value().abs());
+    ROUNDING * terms.iter().fold(1.0, larger)
 }
 
 /// Error that a guard may have at the end of a step: in units of the tolerance, and at least.

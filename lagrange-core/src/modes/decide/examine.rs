@@ -119,11 +119,13 @@ impl<T: Scalar> Decider<T> {
         }
         // Most candidates are refused, and many accepted, by their values already.
         dynamics.value(t, q, v)?;
-        // The inertia and what drives are the same in all modes, but for branches.
+        // Inertia and forcing are the same in all modes, but for branches.
         if !self.sized || facts.balanced.contains(&true) {
             dynamics.complete_outputs();
             self.sizes.take(dynamics);
             self.sized = true;
+        } else {
+            self.sizes.take_rows(dynamics);
         }
         self.share(dynamics);
         self.ask_values(dynamics, here);

@@ -28,6 +28,7 @@ mod die;
 mod drag;
 mod fading;
 mod falls_flat;
+mod far;
 mod feasible;
 mod four_feet;
 mod groove;
@@ -75,6 +76,7 @@ mod striking_rod;
 mod turntable;
 mod wire;
 mod woodpecker;
+mod yoke;
 
 use lagrange_core::prelude::*;
 
