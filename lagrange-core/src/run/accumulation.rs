@@ -300,16 +300,18 @@ impl<T: Scalar> Run<T> {
 
     /// Whether no gap of the train has opened wider, before the last impact there, than rounding makes of it: such impacts never end.
     fn is_unresolved(&self) -> bool {
-        let d = self.description();
-        let number = |place| self.dynamics.motion(place).value();
-        let resolution = |c: usize| {
-            let terms = d.rows[d.contacts[c].row].jacobian.iter();
-            let sizes = terms.map(|&(j, place)| number(place) * self.now.state.q[j].value());
-            ROUNDING * sizes.map(f64::abs).sum::<f64>()
-        };
         let impacts = self.switcher.impacts.iter().enumerate();
         let mut train = impacts.filter(|(c, _)| self.switcher.train.has(*c));
-        train.all(|(c, impacts)| impacts.height <= resolution(c))
+        train.all(|(c, impacts)| impacts.height <= self.rounding_of_gap(c))
+    }
+
+    /// What rounding makes of the gap of contact `c`.
+    pub(super) fn rounding_of_gap(&self, c: usize) -> f64 {
+        let d = self.description();
+        let number = |place| self.dynamics.motion(place).value();
+        let terms = d.rows[d.contacts[c].row].jacobian.iter();
+        let sizes = terms.map(|&(j, place)| number(place) * self.now.state.q[j].value());
+        ROUNDING * sizes.map(f64::abs).sum::<f64>()
     }
 
     /// Whether the gap of contact `c` is below the tolerance.

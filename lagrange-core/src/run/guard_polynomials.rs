@@ -595,7 +595,7 @@ impl GuardPolynomials {
 /// What rounding makes of a guard at the last value of `dynamics`, to be told from an `error`. Gaps and slips are differences of positions and of
 /// velocities, which may be large: those of two satellites on a rope, from the centre of the Earth.
 #[inline]
-fn rounding<T: Scalar>(error: f64, guard: Guard, dynamics: &Dynamics<T>) -> f64 {
+pub(super) fn rounding<T: Scalar>(error: f64, guard: Guard, dynamics: &Dynamics<T>) -> f64 {
     let (q, v) = dynamics.positions_and_velocities();
     let terms = match guard {
         Guard::Gap(_) if error > ROUNDING => q,

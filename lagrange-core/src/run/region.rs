@@ -6,6 +6,7 @@
 //! come up through it. Where it enters the region on the surface, as a wheel that climbs a kerb, the contact closes.
 
 use super::Run;
+use super::guard_polynomials::rounding;
 use crate::arithmetic::Scalar;
 use crate::effects::Item;
 use crate::events::{Direction, first_root};
@@ -75,7 +76,8 @@ impl<T: Scalar> Run<T> {
             let gap = value(curve, end);
             let size: f64 = curve.iter().map(|c| c.abs()).sum();
             // Within the region it can only be a root that rounding has put into the next step.
-            let passed = gap < -1e-9 * size || !self.within_region(guard, end);
+            let blur = (1e-9 * size).max(rounding(gap.abs(), guard, &self.dynamics));
+            let passed = gap < -blur || !self.within_region(guard, end);
             below[c] = gap < 0.0 && (below[c] || passed);
         }
         self.now.below = below;

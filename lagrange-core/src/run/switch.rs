@@ -309,10 +309,17 @@ impl<T: Scalar> Run<T> {
         if !(0..d.contacts.len()).any(|c| facts.arriving[c] && self.approaching(c)) {
             return Ok(false);
         }
-        // What has just parted may be pushed back.
+        // What has just parted may be pushed back, and so may what is away by no more than rounding.
         let mut near = core::mem::take(&mut self.switcher.near);
         near.clear();
-        near.extend((0..d.contacts.len()).filter(|&c| facts.touching[c] || facts.parting[c]));
+        for c in 0..d.contacts.len() {
+            if facts.touching[c] || facts.parting[c] {
+                near.push(c);
+            } else if self.may_touch(c, facts) && self.is_within_rounding(c) {
+                near.push(c);
+                facts.arriving[c] |= self.approaching(c);
+            }
+        }
         let impacts = self.settings.impacts.unwrap_or(d.impacts);
         let time = self.now.t.value();
         let mut solved =
@@ -343,13 +350,8 @@ impl<T: Scalar> Run<T> {
     /// of the others end with it.
     fn take_what_touches(&mut self, facts: &mut SwitchFacts) {
         let d = self.description();
-        let may = |run: &Self, facts: &SwitchFacts, c: usize| {
-            let takes_part = run.dynamics.effects().includes(d, Item::Contact(c));
-            let is_at_edge = facts.located.contains(&Guard::Region(c));
-            takes_part && !(facts.touching[c] || run.now.below[c] || is_at_edge)
-        };
         let contacts = 0..d.contacts.len();
-        if !contacts.clone().any(|c| may(self, facts, c)) {
+        if !contacts.clone().any(|c| self.may_touch(c, facts)) {
             return;
         }
         self.dynamics.set_extra_needs(&self.switcher.status.needs);
@@ -359,7 +361,7 @@ impl<T: Scalar> Run<T> {
         let closed = contacts.clone().filter(|&c| facts.touching[c]);
         let off = closed.map(|c| self.gap(c).abs()).fold(0.0, f64::max);
         for c in contacts {
-            if may(self, facts, c) && self.touches(c, off) {
+            if self.may_touch(c, facts) && self.touches(c, off) {
                 self.end(c, facts);
                 let rubs =
                     |f: &usize| matches!(d.frictions[*f].normal, Normal::Contact(own) if own == c);
@@ -377,6 +379,27 @@ impl<T: Scalar> Run<T> {
         place.map_or(0.0, |place| self.dynamics.motion(place).value())
     }
 
+    /// Whether contact `c` is none that is known to touch, to be below its surface or at the edge of it.
+    fn may_touch(&self, c: usize, facts: &SwitchFacts) -> bool {
+        let takes_part = self
+            .dynamics
+            .effects()
+            .includes(self.description(), Item::Contact(c));
+        let is_at_edge = facts.located.contains(&Guard::Region(c));
+        takes_part && !(facts.touching[c] || self.now.below[c] || is_at_edge)
+    }
+
+    /// Whether rounding explains the gap of contact `c`.
+    fn is_within_rounding(&self, c: usize) -> bool {
+        self.is_in_region(c) && self.gap(c).abs() <= self.rounding_of_gap(c)
+    }
+
+    /// Whether the present state is in the region of contact `c`.
+    fn is_in_region(&self, c: usize) -> bool {
+        let region = self.description().contacts[c].region;
+        region.is_none_or(|place| self.dynamics.motion(place).value() > 0.0)
+    }
+
     /// Whether the gap of contact `c` and its rate vanish beside the terms that make them; gaps that vanish are `off` by so much.
     fn touches(&self, c: usize, off: f64) -> bool {
         let contact = &self.description().contacts[c];
@@ -388,7 +411,7 @@ impl<T: Scalar> Run<T> {
             .map(|&(j, place)| number(place).abs() * self.now.state.q[j].value().abs().max(1.0))
             .sum();
         let (rate, size) = self.rate(contact.row);
-        contact.region.is_none_or(|place| number(place) > 0.0)
+        self.is_in_region(c)
             && gap.abs() <= ROUNDING * extent + off
             && rate.abs() <= ROUNDING * size
     }
