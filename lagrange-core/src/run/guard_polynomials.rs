@@ -159,6 +159,21 @@ impl GuardPolynomials {
         self.list.extend(curves);
     }
 
+    /// The same in a mode that goes on: what may fall below zero still may.
+    pub(super) fn rearm<T: Scalar>(
+        &mut self,
+        guards: impl Iterator<Item = Guard>,
+        mode: &Mode,
+        dynamics: &Dynamics<T>,
+    ) {
+        let lowered = self.list.iter().filter(|curve| curve.margin > 0.0);
+        let lowered: Vec<_> = lowered.map(|curve| (curve.guard, curve.margin)).collect();
+        self.arm(guards, mode, dynamics);
+        for (guard, margin) in lowered {
+            self.lower(guard, margin);
+        }
+    }
+
     /// The guards of the mode with their polynomials.
     pub(super) fn of_mode(&self) -> impl Iterator<Item = (Guard, &[f64])> {
         let first = self.watches.len();
@@ -341,7 +356,7 @@ impl GuardPolynomials {
             located,
             |error, allowed, rounding, other_side| {
                 let mut ratio = error / (allowed + rounding);
-                if other_side {
+                if other_side && error > rounding {
                     ratio *= OTHER_SIDE;
                 }
                 worst = worse(worst, ratio);
@@ -431,7 +446,8 @@ impl GuardPolynomials {
             curve[1..].fill(0.0);
             let guard = self.list[index].guard;
             let one_sided = matches!(guard, Guard::Gap(_) | Guard::Branch(_));
-            if value.is_nan() || one_sided && value < 0.0 && curve[0] >= 0.0 {
+            let falls = value < -rounding(value.abs(), guard, dynamics) && curve[0] >= 0.0;
+            if value.is_nan() || one_sided && falls {
                 broken = broken.or(Some((guard, curve[0], value)));
             }
         }

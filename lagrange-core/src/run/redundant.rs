@@ -53,7 +53,7 @@ impl<T: Scalar> Run<T> {
         let single = watched.guards.iter().copied();
         let single = single.filter(|&guard| !redundant.is_open(guard));
         let curves = &mut self.locator.polynomials;
-        curves.arm(single, &self.now.mode, &self.dynamics);
+        curves.rearm(single, &self.now.mode, &self.dynamics);
     }
 
     /// At part `looked` of a step, its end or just before it, which the dynamics have evaluated, after `corrections` others:
