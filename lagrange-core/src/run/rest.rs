@@ -155,7 +155,7 @@ impl<T: Scalar> Run<T> {
             return false;
         }
         self.now.valued = false;
-        let held = self.are_held();
+        let held = self.are_held() && self.stop_within_errors();
         self.dynamics.set_mode(&self.now.mode);
         self.ask_for_guards();
         if !held {
@@ -203,6 +203,23 @@ impl<T: Scalar> Run<T> {
             let limit = exact::kinetic_limit(f, &self.locator.resting, &self.dynamics);
             a.hypot(b) < (1.0 - clear) * limit.value()
         })
+    }
+
+    /// Whether rest changes velocities by no more than their errors: a slip that is small beside what moves in it may be all that turns a small body.
+    /// `dynamics` is in the mode at rest.
+    fn stop_within_errors(&mut self) -> bool {
+        let State { q, v, .. } = &self.now.state;
+        let stopped = &mut self.locator.earlier;
+        stopped.copy_from_slice(v);
+        let projected = self
+            .dynamics
+            .project_velocities(self.now.t, q, stopped, &[]);
+        let mut changes = v.iter().zip(&*stopped).enumerate();
+        projected.is_ok()
+            && changes.all(|(i, (now, stopped))| {
+                let allowed = self.settings.allowed(i, now.value().abs());
+                (*stopped - *now).value().abs() <= LEFT_TOGETHER * allowed
+            })
     }
 
     /// Where a step would be too short for time to resolve: whether slips that turn have all but vanished, so that they come to rest here. They are then
