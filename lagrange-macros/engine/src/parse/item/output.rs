@@ -12,14 +12,14 @@ use proc_macro2::{Delimiter, TokenTree};
 /// `height = y, px`
 pub(super) fn observe(parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<ItemKind> {
     let read = super::quantity::every(parts, sink, |part, sink| {
+        if part.second().is_some() && !part.has_operator(&["=", ":"]) {
+            let hint = "write `observe(name = …)`";
+            sink.report(Code::NoName, part.here(), &[&"output", &hint]);
+            return None;
+        }
         let head = head(part, "a name", sink)?;
         if part.is_at_end() && head.index.is_none() {
             return Some(Observe::Known(head.name));
-        }
-        if !matches!(part.operator(), Some("=" | ":")) {
-            let hint = "write `observe(name = …)`";
-            sink.report(Code::NoName, &head.name, &[&"output", &hint]);
-            return None;
         }
         part.require("=", sink)?;
         let value = whole(part, sink)?;
