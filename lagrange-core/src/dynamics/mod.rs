@@ -449,10 +449,9 @@ impl<T: Scalar> Dynamics<T> {
         place.read(&self.compiled().constants, &self.report_nodes)
     }
 
-    /// Positions and velocities of the last value.
-    pub(crate) fn positions_and_velocities(&self) -> (&[T], &[T]) {
-        let n = self.description().coordinates.len();
-        self.inputs[1..=2 * n].split_at(n)
+    /// Time, positions and velocities of the last value, one after the other.
+    pub(crate) fn time_and_state(&self) -> &[T] {
+        &self.inputs[..=2 * self.description().coordinates.len()]
     }
 
     /// v̇ at the last [`Self::value`], one per coordinate.

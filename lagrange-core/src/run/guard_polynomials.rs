@@ -609,13 +609,19 @@ impl GuardPolynomials {
 }
 
 /// What rounding makes of a guard at the last value of `dynamics`, to be told from an `error`. Gaps and slips are differences of positions and of
-/// velocities, which may be large: those of two satellites on a rope, from the centre of the Earth.
+/// velocities, which may be large: those of two satellites on a rope, from the centre of the Earth. What is watched, and where branches change, may be
+/// made of all of them.
 #[inline]
 pub(super) fn rounding<T: Scalar>(error: f64, guard: Guard, dynamics: &Dynamics<T>) -> f64 {
-    let (q, v) = dynamics.positions_and_velocities();
+    if error <= ROUNDING {
+        return ROUNDING;
+    }
+    let state = dynamics.time_and_state();
+    let n = state.len() / 2;
     let terms = match guard {
-        Guard::Gap(_) if error > ROUNDING => q,
-        Guard::Slip(_) if error > ROUNDING => v,
+        Guard::Gap(_) => &state[1..=n],
+        Guard::Slip(_) => &state[1 + n..],
+        Guard::Stop(..) | Guard::Mark(..) | Guard::Branch(_) => state,
         _ => return ROUNDING,
     };
     let larger = |size: f64, x: &T| size.max(x.value().abs());

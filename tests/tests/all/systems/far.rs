@@ -14,6 +14,7 @@ use lagrange_tests::{agree, run_by, words};
     contact(bumper: x[1] - x[0] >= width, restitution = bounce),
     friction(rub on bumper: slip = der(y[1]) - der(y[0]), static = mu),
     mark(turn: der(x[1]) - der(x[0])),
+    mark(near: x[1] - x[0] - 2 * width),
 )]
 struct Bodies {
     mass: [f64; 2],
