@@ -324,7 +324,7 @@ impl<T: Scalar> Decider<T> {
     /// Looks for the feasible candidate to be preferred, into `self.best`. False: there is none.
     ///
     /// # Errors
-    /// None is feasible, and one could not be evaluated.
+    /// None is feasible, and one could not be evaluated. That what one holds contradicts itself there is no error where others hold less.
     fn best(
         &mut self,
         dynamics: &mut Dynamics<T>,
@@ -333,7 +333,7 @@ impl<T: Scalar> Decider<T> {
         candidates: &Candidates,
     ) -> Result<bool, EvaluationError> {
         self.tried = 0;
-        let (mut best, mut failure) = (None, None);
+        let (mut best, mut failure, mut evaluated) = (None, None, false);
         // Without friction the accelerations are the only ones that Gauss's principle allows: no other mode has others.
         let idle = |mode: &Mode| mode.frictions.iter().all(|f| *f == FrictionMode::Inactive);
         let unique = dynamics.description().couplings.is_empty()
@@ -361,11 +361,12 @@ impl<T: Scalar> Decider<T> {
                 Ok(true) => {
                     self.decision.ambiguous |= differ(&self.motion, dynamics.acceleration());
                 }
-                Ok(false) => {}
+                Ok(false) => evaluated = true,
                 Err(error) => failure = Some((mode, error)),
             }
         }
         match (best, failure) {
+            (None, Some((_, EvaluationError::Inconsistent { .. }))) if evaluated => Ok(false),
             (None, Some((mode, error))) => {
                 dynamics.set_mode(mode);
                 Err(error)
