@@ -106,6 +106,20 @@ pub fn run_by<S: System<Scalar = f64>>(
     }
 }
 
+/// One step `h` of the classical Runge–Kutta method from (`t`, `y`), for reduced equations that results are compared with.
+pub fn runge_kutta<const N: usize>(
+    slope: impl Fn(f64, [f64; N]) -> [f64; N],
+    (t, y): (f64, [f64; N]),
+    h: f64,
+) -> [f64; N] {
+    let along = |k: [f64; N], h: f64| core::array::from_fn(|i| y[i] + h * k[i]);
+    let k1 = slope(t, y);
+    let k2 = slope(t + h / 2.0, along(k1, h / 2.0));
+    let k3 = slope(t + h / 2.0, along(k2, h / 2.0));
+    let k4 = slope(t + h, along(k3, h));
+    core::array::from_fn(|i| y[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]))
+}
+
 /// The state that the first start of a scene sets.
 pub fn first_start<S: System<Scalar = f64>>(scene: &S) -> State<f64> {
     let n = scene.description().coordinates.len();

@@ -26,6 +26,12 @@ impl<T: Scalar> Run<T> {
         matches!(guard, Guard::Gap(c) if self.now.below[c])
     }
 
+    /// Whether the present state is in the region of contact `c`.
+    pub(super) fn is_in_region(&self, c: usize) -> bool {
+        let region = self.description().contacts[c].region;
+        region.is_none_or(|place| self.dynamics.motion(place).value() > 0.0)
+    }
+
     /// Whether a guard's contact exists at part `s` of the step.
     pub(super) fn within_region(&self, guard: Guard, s: f64) -> bool {
         let Guard::Gap(c) = guard else {

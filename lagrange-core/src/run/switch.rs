@@ -394,12 +394,6 @@ impl<T: Scalar> Run<T> {
         self.is_in_region(c) && self.gap(c).abs() <= self.rounding_of_gap(c)
     }
 
-    /// Whether the present state is in the region of contact `c`.
-    fn is_in_region(&self, c: usize) -> bool {
-        let region = self.description().contacts[c].region;
-        region.is_none_or(|place| self.dynamics.motion(place).value() > 0.0)
-    }
-
     /// Whether the gap of contact `c` and its rate vanish beside the terms that make them; gaps that vanish are `off` by so much.
     fn touches(&self, c: usize, off: f64) -> bool {
         let contact = &self.description().contacts[c];

@@ -3,7 +3,7 @@
 use super::{PI, state};
 use lagrange_core::prelude::*;
 use lagrange_tests::fuzz::METHODS;
-use lagrange_tests::{agree, closure, event, root, run, run_by, words};
+use lagrange_tests::{agree, closure, event, root, run, run_by, runge_kutta, words};
 
 /// A body on a pin of some radius, which may be struck by a ball.
 #[derive(Lagrangian, Clone, Debug)]
@@ -105,20 +105,9 @@ fn a_pendulum_swings_as_its_reduced_equation_says() {
     for turn in turns {
         let steps = 4000;
         let h = (turn.time - time) / f64::from(steps);
-        let f = |theta: f64, rate: f64| acceleration(p, theta, rate, sign);
+        let slope = |_, [theta, rate]: [f64; 2]| [rate, acceleration(p, theta, rate, sign)];
         for _ in 0..steps {
-            let k1 = (rate, f(theta, rate));
-            let k2 = (
-                rate + h / 2.0 * k1.1,
-                f(theta + h / 2.0 * k1.0, rate + h / 2.0 * k1.1),
-            );
-            let k3 = (
-                rate + h / 2.0 * k2.1,
-                f(theta + h / 2.0 * k2.0, rate + h / 2.0 * k2.1),
-            );
-            let k4 = (rate + h * k3.1, f(theta + h * k3.0, rate + h * k3.1));
-            theta += h / 6.0 * (k1.0 + 2.0 * k2.0 + 2.0 * k3.0 + k4.0);
-            rate += h / 6.0 * (k1.1 + 2.0 * k2.1 + 2.0 * k3.1 + k4.1);
+            [theta, rate] = runge_kutta(slope, (0.0, [theta, rate]), h);
         }
         agree("rate at the turn", rate, 0.0, 1e-9);
         agree("angle at the turn", turn.state.q[2], theta, 1e-9);

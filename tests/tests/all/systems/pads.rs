@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{Random, agree, run_by, words};
+use lagrange_tests::{Random, agree, run_by, runge_kutta, words};
 
 /// A bar on two pads at its ends, pulled ever harder at a place `off` its middle.
 #[derive(Lagrangian, Clone, Debug)]
@@ -153,13 +153,7 @@ fn a_bar_begins_to_turn_smoothly_about_the_pad_that_holds() {
         let steps = 2000;
         let h = 0.2 / f64::from(steps);
         for i in 0..steps {
-            let t = begin + h * f64::from(i);
-            let on = |k: [f64; 2], s: f64| [turn[0] + s * h * k[0], turn[1] + s * h * k[1]];
-            let k1 = rates(t, turn);
-            let k2 = rates(t + 0.5 * h, on(k1, 0.5));
-            let k3 = rates(t + 0.5 * h, on(k2, 0.5));
-            let k4 = rates(t + h, on(k3, 1.0));
-            turn = [0, 1].map(|j| turn[j] + h / 6.0 * (k1[j] + 2.0 * (k2[j] + k3[j]) + k4[j]));
+            turn = runge_kutta(rates, (begin + h * f64::from(i), turn), h);
         }
         for (method, tolerance) in METHODS {
             let start = state(&[0.0, 0.0, tilt], &[0.0; 3]);

@@ -3,7 +3,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{Random, agree, all_agree, run_by, words};
+use lagrange_tests::{Random, agree, all_agree, run_by, runge_kutta, words};
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 /// A stool on four feet slides and turns; `tilt` are its small turns about its own axes.
@@ -96,16 +96,11 @@ impl Stool {
 
     /// One step of the classical Runge–Kutta method.
     fn step(&self, s: &Planar, h: f64) -> Planar {
-        let rate = |s: &Planar| {
-            let (a, _) = self.balance(s);
+        let rate = |_, s: Planar| {
+            let (a, _) = self.balance(&s);
             [s[3], s[4], s[5], a[0], a[1], a[2]]
         };
-        let go = |k: &Planar, h: f64| core::array::from_fn(|i| s[i] + h * k[i]);
-        let k1 = rate(s);
-        let k2 = rate(&go(&k1, h / 2.0));
-        let k3 = rate(&go(&k2, h / 2.0));
-        let k4 = rate(&go(&k3, h));
-        core::array::from_fn(|i| s[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]))
+        runge_kutta(rate, (0.0, *s), h)
     }
 
     /// The least load, and whose it is.

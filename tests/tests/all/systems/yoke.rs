@@ -4,7 +4,7 @@
 use super::{PI, state};
 use lagrange_core::prelude::*;
 use lagrange_tests::fuzz::METHODS;
-use lagrange_tests::{agree, event, run_by, words};
+use lagrange_tests::{agree, event, run_by, runge_kutta, words};
 
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
@@ -54,15 +54,8 @@ impl Yoke {
 
     /// When the face is no longer pushed, by the classical Runge–Kutta method with steps that end where the slip reverses.
     fn left_at(&self, [mut phi, mut rate]: [f64; 2]) -> f64 {
-        let slope = |[phi, rate]: [f64; 2]| [rate, self.balance(phi, rate)[1]];
-        let step = |y: [f64; 2], h: f64| {
-            let along = |k: [f64; 2], h: f64| [y[0] + h * k[0], y[1] + h * k[1]];
-            let k1 = slope(y);
-            let k2 = slope(along(k1, h / 2.0));
-            let k3 = slope(along(k2, h / 2.0));
-            let k4 = slope(along(k3, h));
-            [0, 1].map(|i| y[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]))
-        };
+        let slope = |_, [phi, rate]: [f64; 2]| [rate, self.balance(phi, rate)[1]];
+        let step = |y: [f64; 2], h: f64| runge_kutta(slope, (0.0, y), h);
         let mut time = 0.0;
         let h = 1e-5;
         // The last step to an instant where something is below zero, by bisection.
