@@ -250,20 +250,6 @@ impl Mode {
         Named {
             mode: self,
             description,
-            beside: None,
-        }
-    }
-
-    /// The mode in words beside another one: of the sides of branches, those alone on which they differ.
-    pub fn display_beside<'a>(
-        &'a self,
-        other: &'a Mode,
-        description: &'a Description,
-    ) -> impl fmt::Display + 'a {
-        Named {
-            mode: self,
-            description,
-            beside: Some(other),
         }
     }
 }
@@ -271,7 +257,6 @@ impl Mode {
 struct Named<'a> {
     mode: &'a Mode,
     description: &'a Description,
-    beside: Option<&'a Mode>,
 }
 
 impl fmt::Display for Named<'_> {
@@ -299,12 +284,7 @@ impl fmt::Display for Named<'_> {
             write!(f, "{separator}{} {verb}", friction.name)?;
             separator = ", ";
         }
-        let other = self.beside.into_iter();
-        let mut others = other.flat_map(|other| other.sides(self.description));
         for side in self.mode.sides(self.description) {
-            if others.next() == Some(side) {
-                continue;
-            }
             write!(f, "{separator}{side}")?;
             separator = ", ";
         }

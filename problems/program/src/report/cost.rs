@@ -1,7 +1,7 @@
 //! Costs of effects → table, JSON, CSV.
 
 use super::table::{WIDTH, page};
-use super::words::in_table;
+use super::words::brief;
 use crate::cost::{Cost, Costs, EffectCost, ModeCost};
 use comfy_table::{CellAlignment, ContentArrangement, Table};
 use core::ops::Range;
@@ -23,7 +23,7 @@ pub fn table(costs: &Costs, mut out: impl Write) -> io::Result<()> {
         } = mode.cost;
         modes.add_row([
             (index + 1).to_string(),
-            in_table(&mode.mode, costs.description),
+            brief(&mode.mode, costs.description),
             operations.to_string(),
             format!("{nanoseconds:.0}"),
         ]);

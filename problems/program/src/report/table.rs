@@ -1,10 +1,10 @@
 //! Outcome → text: the story of the run, then the energy book and the work counts.
 //!
-//! Each event has two lines: above, the forces and the mode just before; below, just after. An impact shows
-//! impulses instead. Numbers of a column have the same number of decimals, so that they can be compared by eye.
+//! Each event has two lines: above, the forces just before; below, just after, with what the mode does now that it did not before.
+//! An impact shows impulses instead, in one line. Numbers of a column have the same number of decimals, so that they can be compared by eye.
 
 use super::telling;
-use super::words::{FEW, MANY, in_table, switch_in_table};
+use super::words::{FEW, MANY, brief, changed};
 use crate::notation::{is_angle, symbol};
 use crate::outcome::{Force, Outcome, Sample, Source, forces};
 use comfy_table::{
@@ -110,13 +110,19 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
         upper: acting(&sample.forces, &sample.mode),
         lower: Vec::new(),
         impulse: false,
-        mode: in_table(&sample.mode, description),
+        mode: brief(&sample.mode, description),
     };
     let groups = instants(&outcome.events);
     let happening = |(index, group): &(usize, &[Event<f64>])| {
         let [event, ..] = group else { return None };
-        let (mode, changes) = switch_in_table(&event.before, &event.after, description);
         let impulse = event.kind == EventKind::Impact;
+        // What an impact changes is told by the events that follow at its instant, where there are any.
+        let next = outcome.events.get(index + group.len());
+        let told_next = next.is_some_and(|next| {
+            (next.time, &next.before, &next.after) == (event.time, &event.before, &event.after)
+        });
+        let changed = changed(&event.before, &event.after, description);
+        let changed = changed.filter(|_| !(impulse && told_next));
         let before = outcome.around.get(*index).and_then(|a| a[0].as_ref());
         Some(Line {
             time: event.time,
@@ -130,12 +136,17 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
                     .collect(),
                 false => acting(&event.forces, &event.before),
             },
-            lower: match impulse || !changes {
+            lower: match impulse || changed.is_none() {
                 true => Vec::new(),
                 false => acting(&event.forces_after, &event.after),
             },
             impulse,
-            mode,
+            mode: match (changed, event.kind) {
+                (Some(changed), _) if impulse => format!("→ {changed}"),
+                (Some(changed), _) => format!("\n→ {changed}"),
+                (None, EventKind::Stop) => brief(&event.after, description),
+                (None, _) => String::new(),
+            },
         })
     };
     // An impact at the start is told by itself, after what was before it.
@@ -146,7 +157,7 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
         Some(group) if decided => Line {
             event: format!("start\n{}", named(group, description)),
             upper: acting(&group[0].forces_after, &group[0].after),
-            mode: in_table(&group[0].after, description),
+            mode: brief(&group[0].after, description),
             ..instant(sample, "start")
         },
         Some(group) => Line {
@@ -155,7 +166,7 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
                 outcome.around.first().and_then(|a| a[0].as_ref()),
             ),
             upper: acting(&group[0].forces, &group[0].before),
-            mode: in_table(&group[0].before, description),
+            mode: brief(&group[0].before, description),
             ..instant(sample, "start")
         },
         None => instant(sample, "start"),
@@ -229,10 +240,8 @@ impl Column {
         Some(line.state[self.place]? * self.scale)
     }
 
-    /// As many as the lines need. A coordinate that is nothing but rounding in all of them is shown beside how far its velocities carry it.
+    /// As many as the lines need. A coordinate that is nothing but error in all of them is shown beside how far its velocities carry it.
     fn decimals(&self, lines: &[Line], outcome: &Outcome) -> Decimals {
-        /// Relative size of what is rounding.
-        const ROUNDING: f64 = 1e-12;
         let told: Vec<f64> = lines.iter().filter_map(|line| self.of(line)).collect();
         let largest = |values: &[f64]| values.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
         let samples = outcome.samples.iter().map(|sample| &sample.state);
@@ -246,7 +255,7 @@ impl Column {
             _ => 0.0,
         };
         let way = largest(&speeds) * lasts * self.scale;
-        match largest(&told) < ROUNDING * way {
+        match largest(&told) < outcome.tolerance * way {
             true => Decimals::of([way]),
             false => Decimals::of(told),
         }
@@ -387,27 +396,33 @@ fn story(outcome: &Outcome) -> Table {
             column.set_cell_alignment(CellAlignment::Right);
             column.set_constraint(ColumnConstraint::ContentWidth);
         }
+        // Beside so many numbers that they are wider than a page, texts need not be narrow.
+        let wide = shown.len() + items.len() > NUMBERS;
         if index == texts {
             // No name is broken: the longest word and the space before it.
-            let words = lines.iter().flat_map(|line| line.event.split_whitespace());
-            let longest = words.map(|word| word.chars().count()).max().unwrap_or(0);
-            let least = ColumnConstraint::LowerBoundary(Width::Fixed(longest as u16 + 1));
-            column.set_constraint(least);
+            let of = |line: &Line| match wide {
+                true => longest(line.event.lines()),
+                false => longest(line.event.split_whitespace()),
+            };
+            let least = lines.iter().map(of).max().unwrap_or(0) + 1;
+            column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(least)));
         }
         if index == numbers {
-            // Beside many numbers, which are wider than a page, modes need not be narrow.
-            let most = if shown.len() + items.len() > NUMBERS {
-                40
-            } else {
-                18
-            };
+            let most = if wide { 40 } else { 18 };
             let modes = lines.iter().flat_map(|line| line.mode.lines());
-            let longest = modes.map(|mode| mode.chars().count()).max().unwrap_or(0);
-            let least = longest.clamp(18, most) as u16;
+            let least = longest(modes).clamp(18, most);
             column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(least)));
         }
     }
     table
+}
+
+/// Characters of the longest of some texts.
+fn longest<'a>(texts: impl Iterator<Item = &'a str>) -> u16 {
+    texts
+        .map(|text| text.chars().count() as u16)
+        .max()
+        .unwrap_or(0)
 }
 
 /// Of a force's impulse, `N s`.

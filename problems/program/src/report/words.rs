@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 /// So many of a kind that do the same are told together.
 pub(super) const MANY: usize = 3;
 
-/// In a table, so many contacts, frictions and sides of branches are told one by one.
+/// In a table, so many events of an instant, and sides of branches, are told one by one.
 pub(super) const FEW: usize = 4;
 
 /// A name with what it does: singular and plural.
@@ -22,37 +22,11 @@ pub(crate) fn brief(mode: &Mode, description: &Description) -> String {
     joined(&told)
 }
 
-/// A mode in a table: item by item, or in brief where there are many.
-pub(crate) fn in_table(mode: &Mode, description: &Description) -> String {
-    match are_few(description) {
-        true => mode.display(description).to_string(),
-        false => brief(mode, description),
+/// What a mode does that the one before it did not; `None` where they are the same.
+pub(super) fn changed(before: &Mode, after: &Mode, description: &Description) -> Option<String> {
+    if before == after {
+        return None;
     }
-}
-
-/// A mode and the one that follows it in a table, and whether they differ. Of many items the second line has those that have changed.
-pub(crate) fn switch_in_table(
-    before: &Mode,
-    after: &Mode,
-    description: &Description,
-) -> (String, bool) {
-    let beside = |mode: &Mode, other| mode.display_beside(other, description).to_string();
-    let (first, second) = (beside(before, after), beside(after, before));
-    if first == second {
-        return (in_table(before, description), false);
-    }
-    let told = match are_few(description) {
-        true => format!("{first}\n→ {second}"),
-        false => {
-            let changed = changed(before, after, description);
-            format!("{}\n→ {changed}", brief(before, description))
-        }
-    };
-    (told, true)
-}
-
-/// What a mode does that the one before it did not.
-fn changed(before: &Mode, after: &Mode, description: &Description) -> String {
     let new = |now: Vec<Doing>, then: Vec<Doing>, kind| {
         let all = now.len();
         let new: Vec<Doing> = now.into_iter().filter(|one| !then.contains(one)).collect();
@@ -68,17 +42,7 @@ fn changed(before: &Mode, after: &Mode, description: &Description) -> String {
         .sides(description)
         .filter(|side| !sides.contains(side));
     told.extend(some(other.collect()));
-    joined(&told)
-}
-
-fn are_few(description: &Description) -> bool {
-    let Description {
-        contacts,
-        frictions,
-        branches,
-        ..
-    } = description;
-    contacts.len() + frictions.len() + branches.len() <= FEW
+    (!told.is_empty()).then(|| told.join(", "))
 }
 
 /// Conditions that hold, of many the first ones.
