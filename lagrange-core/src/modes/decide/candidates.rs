@@ -89,7 +89,8 @@ impl Facts {
     }
 }
 
-/// What is preferred has the lower rank: closed contacts, frictions that hold, the present mode, few changes.
+/// What is preferred has the lower rank: frictions that hold, closed contacts, the present mode, few changes. What holds comes before what
+/// is closed: a cupboard that its friction holds tips over its edge, although it could stand on both feet if these slid, μk < μs.
 fn rank(mode: &Mode, here: SwitchContext<'_, impl Copy>) -> u128 {
     /// Bits of each criterion.
     const BITS: u32 = 24;
@@ -114,9 +115,9 @@ fn rank(mode: &Mode, here: SwitchContext<'_, impl Copy>) -> u128 {
     let differs = changes > 0 || mode.branches != present.branches;
     let most = (1 << BITS) - 1;
     let criteria = [
-        most - closed,
         left_behind,
         most - sticks(mode),
+        most - closed,
         usize::from(differs),
         changes,
     ];

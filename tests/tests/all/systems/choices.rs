@@ -1,8 +1,9 @@
-//! Several modes could go on: the one that sticks comes first, then the present one, and the event says so.
+//! Several modes could go on: the one that sticks comes first, then the one that stays closed, then the present one, and the event says so.
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, event, run, words};
+use lagrange_tests::fuzz::METHODS;
+use lagrange_tests::{agree, event, run, run_by, runge_kutta, words};
 
 /// A block upon a block, both with dry friction of given limits. The upper one, which is pushed, hits a ball of its own mass,
 /// takes its rest, and gives it its speed.
@@ -79,4 +80,82 @@ fn of_two_modes_that_stick_as_much_the_present_one_goes_on() {
     agree("its speed", v[1], 3.0 * 0.4, 1e-12);
     let last = motion.events().last().expect("the blow");
     assert!(last.ambiguous, "{:?}", words(&motion));
+}
+
+/// A cupboard that is pushed at its upper edge, harder and harder.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, tilt),
+    define(
+        right = [cos(tilt), -sin(tilt)],
+        up = [sin(tilt), cos(tilt)],
+        rear = [x, y] - width/2 * right - height/2 * up,
+        front = [x, y] + width/2 * right - height/2 * up,
+    ),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2) + mass * (width^2 + height^2)/24 * der(tilt)^2,
+    potential = mass * gravity * y,
+    contact(rear_foot: rear[1] >= 0),
+    contact(front_foot: front[1] >= 0),
+    friction(rear_grip on rear_foot: slip = der(rear[0]), static = mu, kinetic = nu),
+    friction(front_grip on front_foot: slip = der(front[0]), static = mu, kinetic = nu),
+    force(push: (rate * t, 0) at [x, y] + height/2 * up - width/2 * right),
+    start(set: y = height/2),
+)]
+struct Cupboard {
+    mass: f64,
+    width: f64,
+    height: f64,
+    gravity: f64,
+    mu: f64,
+    nu: f64,
+    rate: f64,
+}
+
+/// When the push lifts the rear foot, both feet could also slide, on the friction of motion, which is less than what holds them: a motion
+/// that nothing begins.
+#[test]
+fn what_holds_goes_on_to_hold_though_a_contact_opens() {
+    let cupboard = Cupboard {
+        mass: 43.0,
+        width: 0.6,
+        height: 0.9,
+        gravity: 9.81,
+        mu: 0.45,
+        nu: 0.2,
+        rate: 70.0,
+    };
+    let Cupboard {
+        mass,
+        width,
+        height,
+        gravity,
+        rate,
+        ..
+    } = cupboard;
+    let lifted = mass * gravity * width / (2.0 * height * rate);
+    // Turning about the front foot, J = m (b² + h²)/3.
+    let inertia = mass * (width * width + height * height) / 3.0;
+    let slope = |t: f64, [angle, spin]: [f64; 2]| {
+        let (s, c) = angle.sin_cos();
+        let push = rate * t * (height * c + width * s);
+        let weight = mass * gravity * (height * s - width * c) / 2.0;
+        [spin, (push + weight) / inertia]
+    };
+    let until = lifted + 0.35;
+    let (steps, mut tilt) = (2000, [0.0; 2]);
+    let h = (until - lifted) / f64::from(steps);
+    for k in 0..steps {
+        tilt = runge_kutta(slope, (lifted + h * f64::from(k), tilt), h);
+    }
+    for method in METHODS {
+        let start = state(&[0.0, height / 2.0, 0.0], &[0.0; 3]);
+        let method = method.to_string();
+        let motion = run_by(&cupboard, (&method, 1e-9), start, until);
+        assert_eq!(words(&motion), ["rear_foot lost"], "{method}");
+        assert!(!motion.events()[0].ambiguous, "{method}");
+        agree(&method, motion.events()[0].time, lifted, 1e-8);
+        let State { q, v, .. } = motion.final_state();
+        agree(&method, q[2], tilt[0], 1e-7);
+        agree(&method, v[2], tilt[1], 1e-7);
+    }
 }
