@@ -113,6 +113,19 @@ pub enum Error {
         /// Its rate just after, in the unit of the declaration per second; of a friction its slip.
         rate: f64,
     },
+    /// A generalized momentum, or L itself, jumps where a piecewise expression in the energies changes: velocities would have to jump there.
+    Kick {
+        /// Time, s.
+        time: f64,
+        /// The condition that changes.
+        condition: &'static str,
+        /// The coordinate whose momentum ∂L/∂v jumps; `None`: L does, as at the step of a potential.
+        momentum: Option<&'static str>,
+        /// What jumps, before, in the unit of the declaration.
+        before: f64,
+        /// The same after.
+        after: f64,
+    },
     /// A contact is hit whose gap does not fall below zero but turns there, as the distance of two points does: the direction of its force is
     /// not known.
     Undirected {
@@ -404,6 +417,23 @@ impl fmt::Display for Error {
                 "t = {time}: the rate of `{item}` jumps to {rate:.6} where a piecewise expression changes, and what \
                  velocities do at such a corner is not computed; round it, or write each side as a contact of its own"
             ),
+            Error::Kick {
+                time,
+                condition,
+                momentum,
+                before,
+                after,
+            } => {
+                let what = match momentum {
+                    Some(coordinate) => format!("the momentum of `{coordinate}`"),
+                    None => "the Lagrangian T - V".to_owned(),
+                };
+                write!(
+                    f,
+                    "t = {time}: {what} jumps from {before:.6} to {after:.6} where `{condition}` changes, and what velocities do at \
+                     such a kick is not computed; let it change over a distance or within a time, or declare what is hit as a contact"
+                )
+            }
             Error::Undirected { time, item } => write!(
                 f,
                 "t = {time}: the gap of `{item}` vanishes where it has no direction, as the distance of two points does; give them a \

@@ -250,31 +250,57 @@ impl Equations {
         }
     }
 
-    /// Choices take what is zero to within the tolerance, in the state that was balanced, for zero, or for less.
-    pub fn take_what_vanishes_for(
-        &mut self,
-        ordering: Ordering,
-        at: Situation<'_>,
-        tolerance: f64,
-    ) {
+    /// Choices take what is zero to within the tolerance, in the state that was balanced, for zero; or, given a gap that is, for what it is where the
+    /// gap opens.
+    pub fn take_what_vanishes(&mut self, gap: Option<usize>, at: Situation<'_>, tolerance: f64) {
         let mut guards = self.balancing.guards();
         guards.retain(|&guard| self.vanishes(guard, at, tolerance));
-        self.balancing.take_for(ordering, &guards);
+        let opening = gap.map(|gap| self.gradient(gap));
+        let side = |guard: usize| {
+            let rises = opening.as_ref().map_or(0.0, |opening| {
+                let gradient = self.gradient(guard);
+                gradient.iter().zip(opening).map(|(a, b)| a * b).sum()
+            });
+            match rises < 0.0 {
+                true => (guard, Ordering::Less),
+                false => (guard, Ordering::Equal),
+            }
+        };
+        let taken: Vec<(usize, Ordering)> = guards.into_iter().map(side).collect();
+        self.balancing.take_for(taken);
+    }
+
+    /// ∂/∂q of a value of the state that was balanced.
+    fn gradient(&mut self, value: usize) -> Vec<f64> {
+        let seed = Seed {
+            value,
+            variation: [0.0; 2],
+            gradient: 1.0,
+        };
+        self.balancing.sweep(&[seed], &mut self.gradients);
+        let gradients = self.gradients.iter();
+        gradients.map(|gradient| gradient.position.sum).collect()
     }
 
     /// Choices take what balances for what it is again.
     pub fn take_all_as_it_is(&mut self) {
-        self.balancing.take_for(Ordering::Equal, &[]);
+        self.balancing.take_for([]);
     }
 
-    /// Whether the state that was balanced may be on either side of the surface of a contact that is open.
-    pub fn is_at_open_contact(&mut self, at: Situation<'_>, mode: &Mode, tolerance: f64) -> bool {
-        let mut contacts = self.declaration.contacts.iter().enumerate();
-        contacts.any(|(c, contact)| {
-            self.includes(Item::Contact(c))
-                && !mode.contacts[c]
-                && self.vanishes(contact.gap, at, tolerance)
-        })
+    /// The gap of a contact that is open where the state that was balanced may be on either side of its surface.
+    pub fn gap_that_opens(
+        &mut self,
+        at: Situation<'_>,
+        mode: &Mode,
+        tolerance: f64,
+    ) -> Option<usize> {
+        let declaration = self.declaration;
+        let contacts = declaration.contacts.iter().enumerate();
+        let mut open = contacts.filter(|(c, _)| !mode.contacts[*c]);
+        let found = open.find(|(c, contact)| {
+            self.includes(Item::Contact(*c)) && self.vanishes(contact.gap, at, tolerance)
+        });
+        found.map(|(_, contact)| contact.gap)
     }
 
     /// Whether a value of the state that was balanced is zero to within the tolerance.

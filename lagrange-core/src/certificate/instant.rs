@@ -5,7 +5,6 @@ use super::{Findings, MARGIN, Subject};
 use crate::effects::Item;
 use crate::mode::{Direction, FrictionMode, Mode};
 use crate::trajectory::State;
-use core::cmp::Ordering;
 
 /// Beside its reach a slip in space has no direction below this multiple of the tolerance.
 const VANISHING: f64 = 1e3;
@@ -35,11 +34,13 @@ impl Equations {
         if self.is_beyond() {
             // A force may jump at the surface of a contact that is closed, where the state is to within the tolerance.
             let tolerance = MARGIN * findings.tolerance;
-            self.take_what_vanishes_for(Ordering::Equal, at, tolerance);
+            self.take_what_vanishes(None, at, tolerance);
             self.balance(at);
             // Of one that has just opened the state may be on either side.
-            if self.is_beyond() && self.is_at_open_contact(at, mode, tolerance) {
-                self.take_what_vanishes_for(Ordering::Less, at, tolerance);
+            if self.is_beyond()
+                && let Some(gap) = self.gap_that_opens(at, mode, tolerance)
+            {
+                self.take_what_vanishes(Some(gap), at, tolerance);
                 self.balance(at);
             }
         }

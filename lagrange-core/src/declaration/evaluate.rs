@@ -221,9 +221,10 @@ impl<N: Real> Evaluator<N> {
     }
 
     /// Says which values choices take for zero, or for less, from now on, whatever they are; and the others for what they are.
-    pub fn take_for(&mut self, ordering: Ordering, values: &[usize]) {
+    pub fn take_for(&mut self, values: impl IntoIterator<Item = (usize, Ordering)>) {
         self.taken.fill(None);
-        (values.iter()).for_each(|&value| self.taken[value] = Some(ordering));
+        let values = values.into_iter();
+        values.for_each(|(value, ordering)| self.taken[value] = Some(ordering));
     }
 
     /// Whether a choice with this guard is the first one; nothing if it may be either.
@@ -331,6 +332,26 @@ pub fn exponentials(
     };
     let growing = all.iter().filter(grows);
     growing.map(|operation| operation.value).collect()
+}
+
+/// The angles in some values that jump by 2π at a cut, those of `atan2`.
+pub fn angles(declaration: &Declaration, wanted: impl IntoIterator<Item = usize>) -> Vec<usize> {
+    let all = operations(declaration);
+    let needed = needed(&all, wanted);
+    let is_angle = |o: &&Operation| needed[o.value] && o.code == op::ATAN2;
+    all.iter().filter(is_angle).map(|o| o.value).collect()
+}
+
+/// Whether some values, or their gradients, may jump where no branch says so: at the cut of an `atan2`, or where what a root is taken of vanishes.
+pub fn may_jump(declaration: &Declaration, wanted: impl IntoIterator<Item = usize>) -> bool {
+    let all = operations(declaration);
+    let needed = needed(&all, wanted);
+    let jumps = |o: &Operation| match o.code {
+        op::ATAN2 => true,
+        op::POWER => declaration.numbers[o.y].fract() != 0.0,
+        _ => false,
+    };
+    all.iter().any(|o| needed[o.value] && jumps(o))
 }
 
 fn operations(declaration: &Declaration) -> Vec<Operation> {

@@ -15,7 +15,9 @@ mod series;
 mod tests;
 
 pub use draw::{Draw, Form, Turn};
-pub use evaluate::{Evaluator, Gradient, Inputs, Seed, Sum, exponentials, exponents};
+pub use evaluate::{
+    Evaluator, Gradient, Inputs, Seed, Sum, angles, exponentials, exponents, may_jump,
+};
 pub use interval::Interval;
 pub use real::Real;
 pub use series::Series;

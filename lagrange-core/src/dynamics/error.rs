@@ -113,7 +113,7 @@ impl fmt::Display for EvaluationError {
             ),
             Self::NoSeries { operation, .. } => write!(
                 f,
-                "the motion or a guard has no Taylor series here ({}), and every method decides modes by series; write what breaks off there as branches, with `if`",
+                "the motion or a guard has no Taylor series here ({}), and every method decides modes by series; {}",
                 match operation {
                     Operation::Division => "division by zero",
                     Operation::SquareRoot => "square root of a number that is not positive",
@@ -121,6 +121,11 @@ impl fmt::Display for EvaluationError {
                     Operation::Logarithm => "logarithm of a number that is not positive",
                     Operation::InverseSine => "inverse sine at the end of its range",
                     Operation::Angle => "angle of the origin",
+                },
+                match operation {
+                    Operation::SquareRoot | Operation::Power =>
+                        "round a power that begins at zero, `d^(5/2)` as `d^2 * sqrt(d + e)` with a small e, and write what breaks off there as branches, with `if`",
+                    _ => "write what breaks off there as branches, with `if`",
                 }
             ),
             Self::NotFiniteAcceleration { coordinate } => write!(

@@ -277,6 +277,16 @@ fn defect_by<T: Scalar>(
     worst
 }
 
+/// Whether accelerations `dv` at `s` differ from those of the polynomial by more than this part of its terms.
+pub fn differs<T: Scalar>(step: &StepPolynomial<T>, s: f64, dv: &[T], part: f64) -> bool {
+    let (h, width) = (step.h.value(), step.degree + 1);
+    dv.iter().enumerate().any(|(i, dv)| {
+        let row = &step.v[i * width..][..width];
+        let error = (h * dv.value() - derivative_value(row, s, |c| c)).abs();
+        error > part * derivative_value(row, s, f64::abs)
+    })
+}
+
 /// Σ k f(cₖ) sᵏ⁻¹
 fn derivative_value<T: Scalar>(row: &[T], s: f64, f: impl Fn(f64) -> f64) -> f64 {
     let mut k = row.len() as f64;
@@ -310,13 +320,13 @@ pub struct DefectControl {
 }
 
 impl DefectControl {
-    /// Judges a step `h` of `order` with the given [`defect`].
-    pub fn judge(&mut self, h: f64, defect: f64, order: usize) -> Verdict {
+    /// Judges a step `h` of `order` with the given [`defect`]; `jumps` if rounding cannot be what makes it.
+    pub fn judge(&mut self, h: f64, defect: f64, order: usize, jumps: bool) -> Verdict {
         // Any smooth error falls by 0.7⁵ < ½ with the step; rounding does not.
         let stagnant = self
             .previous
             .is_some_and(|previous| defect > 0.5 * previous);
-        if defect <= 1.0 || (stagnant && defect < 1e3) {
+        if defect <= 1.0 || (stagnant && defect < 1e3 && !jumps) {
             self.previous = None;
             return Verdict::Accept;
         }

@@ -1,6 +1,6 @@
 //! What is behind an error of the motion: coefficients without meaning where it happened, or fixed steps that lost the motion.
 
-use super::{Run, exponents};
+use super::{Run, hidden};
 use crate::arithmetic::Scalar;
 use crate::error::{Error, NotFinite};
 use crate::integrate::Method;
@@ -37,7 +37,7 @@ impl<T: Scalar> Run<T> {
     pub(super) fn overflow(&self, mut error: Error) -> Error {
         if let Error::NotFinite { cause, .. } = &mut error {
             let (system, effects) = (self.dynamics.system(), self.dynamics.effects());
-            if exponents::overflow(system, effects, self.now.t, &self.now.state) {
+            if hidden::overflow(system, effects, self.now.t, &self.now.state) {
                 *cause = NotFinite::Exponential;
             } else if self.is_out_of_range() {
                 *cause = NotFinite::Range;

@@ -333,7 +333,7 @@ impl GuardPolynomials {
     }
 
     /// How far the polynomials are off at part `s` of the step, in units of what is allowed by the tolerance and, of forces, by their blur;
-    /// `dynamics` holds the values of the state there, `located` tells the guards whose root it is.
+    /// `dynamics` holds the values of the state there, `known` tells of a guard whether this is its root, and how large what makes it is at least.
     ///
     /// The step is chosen for the coordinates, but a guard is a function of them whose series may converge no further than
     /// a part of it: in free flight the coordinates are polynomials, the distance √(x² + y²) is not. Where the flight passes
@@ -345,7 +345,7 @@ impl GuardPolynomials {
         mode: &Mode,
         s: f64,
         [tolerance, blur]: [f64; 2],
-        located: impl Fn(Guard) -> bool,
+        known: impl Fn(Guard) -> (bool, f64),
     ) -> f64 {
         let mut worst = 0.0;
         self.errors(
@@ -353,7 +353,7 @@ impl GuardPolynomials {
             mode,
             s,
             [tolerance, blur],
-            located,
+            known,
             |error, allowed, rounding, other_side| {
                 let mut ratio = error / (allowed + rounding);
                 if other_side && error > rounding {
@@ -373,7 +373,7 @@ impl GuardPolynomials {
         mode: &Mode,
         s: f64,
         tolerance: f64,
-        located: impl Fn(Guard) -> bool,
+        known: impl Fn(Guard) -> (bool, f64),
     ) -> f64 {
         let mut worst = 0.0_f64;
         self.errors(
@@ -381,7 +381,7 @@ impl GuardPolynomials {
             mode,
             s,
             [tolerance, 0.0],
-            located,
+            known,
             |error, allowed, rounding, _| worst = worst.max((error - rounding) / allowed),
         );
         worst
@@ -396,7 +396,7 @@ impl GuardPolynomials {
         mode: &Mode,
         s: f64,
         [tolerance, blur]: [f64; 2],
-        located: impl Fn(Guard) -> bool,
+        known: impl Fn(Guard) -> (bool, f64),
         mut tell: impl FnMut(f64, f64, f64, bool),
     ) {
         if !self.watches.is_empty() {
@@ -406,14 +406,14 @@ impl GuardPolynomials {
             .zip(self.coefficients.chunks_exact(self.width))
             .enumerate()
         {
-            let located = located(curve.guard);
+            let (located, least) = known(curve.guard);
             let (share, floor) = allowance(curve.guard, located);
             let blur = if curve.guard.is_force() { blur } else { 0.0 };
             let allowed = (share * tolerance).max(floor).max(blur);
             let value = self.value(index, mode, dynamics);
             let found = if s == 1.0 { curve.sums.end } else { at(c, s) };
             // Not all coefficients: where the series has stopped converging they are large and cancel.
-            let size = value.abs() + (c[0].abs() + c[1].abs());
+            let size = (value.abs() + (c[0].abs() + c[1].abs())).max(least);
             let other_side = !located && (found < 0.0) != (value < 0.0);
             let error = (found - value).abs();
             let rounding = rounding(error, curve.guard, dynamics);

@@ -40,8 +40,12 @@ pub(super) struct Locator<T> {
     pub(super) polynomials: GuardPolynomials,
     /// Guards whose leading coefficients vanish at the start of the coming step.
     pub(super) zeros: Vec<(Guard, usize)>,
+    /// Whether a gap began at zero with the step that has just ended.
+    pub(super) opened: bool,
     /// Forces that are at their limit, with their sizes.
     pub(super) at_limit: Vec<(Guard, f64)>,
+    /// How far these are off, relative, because the directions of slips that have nearly vanished are.
+    pub(super) blur: f64,
     /// Falling guards found in the present step: (guard, part of the step, half width).
     falls: Vec<(Guard, f64, f64)>,
     pub(super) fallen: Vec<Guard>,
@@ -69,7 +73,9 @@ impl<T: Scalar> Locator<T> {
         Locator {
             polynomials: GuardPolynomials::new(d, &settings.effects),
             zeros: Vec::new(),
+            opened: false,
             at_limit: Vec::new(),
+            blur: 0.0,
             falls: Vec::new(),
             fallen: Vec::new(),
             rests: Vec::new(),
@@ -89,6 +95,19 @@ impl<T: Scalar> Locator<T> {
         self.mark_passed.fill(None);
         self.polynomials.composites.clear();
         self.polynomials.held.clear();
+    }
+
+    /// Whether the end of a step is the root of a guard, and how large what makes it is at least: of a force at its limit nothing else is left.
+    pub(super) fn known(&self, hit: &Hit) -> impl Fn(Guard) -> (bool, f64) {
+        let stops = matches!(hit, Hit::Stop(..));
+        let Locator {
+            fallen, at_limit, ..
+        } = self;
+        move |guard| {
+            let located = fallen.contains(&guard) || stops && matches!(guard, Guard::Stop(..));
+            let held = at_limit.iter().find(|(other, _)| *other == guard);
+            (located, held.map_or(0.0, |(_, size)| *size))
+        }
     }
 }
 
@@ -208,7 +227,8 @@ impl<T: Scalar> Run<T> {
         if let Some((_, size)) = self.locator.at_limit.iter().find(|(g, _)| *g == guard) {
             // At its limit a force begins at zero, whatever rounding makes of it. Of an interpolation rounding is in the coefficients, which are
             // large and cancel, rather than in the values.
-            let leaves = |place: u32| value(curve, f64::from(place) / 8.0).abs() > CLEAR * size;
+            let clear = CLEAR.max(self.locator.blur) * size;
+            let leaves = |place: u32| value(curve, f64::from(place) / 8.0).abs() > clear;
             return (1..=8).any(leaves).then(|| deflate(curve, 1));
         }
         if let Guard::Composite(_) = guard

@@ -2,12 +2,13 @@
 
 mod accumulation;
 mod cause;
+mod corners;
 mod dead_centre;
-mod exponents;
 mod extremal;
 mod fading;
 mod feasible;
 mod guard_polynomials;
+mod hidden;
 mod hit;
 mod hits;
 mod instant;
@@ -39,7 +40,7 @@ use crate::system::Erased;
 use crate::system::{Description, Watch};
 use crate::trajectory::{EventKind, State, Subject, Trajectory, Work};
 use core::ops::Range;
-use exponents::Exponents;
+use hidden::Hidden;
 use hit::Hit;
 use hits::Locator;
 use log::Recorder;
@@ -76,7 +77,9 @@ pub(crate) struct Run<T: Scalar> {
     now: Now<T>,
     stepper: Stepper<T>,
     /// Of what is declared, if there are any.
-    exponents: Option<Exponents>,
+    hidden: Option<Hidden>,
+    /// Whether accelerations may jump where no branch says so.
+    may_jump: bool,
     /// Watches for positions where constraints lose rank.
     rank: Rank,
     locator: Locator<T>,
@@ -139,7 +142,8 @@ impl<T: Scalar> Run<T> {
         let mut run = Run {
             dynamics: Dynamics::of(system.clone(), &settings.effects),
             stepper: Stepper::new(settings, d, &state),
-            exponents: Exponents::new(&system, &settings.effects),
+            hidden: Hidden::new(&system, &settings.effects),
+            may_jump: hidden::may_jump(&system, &settings.effects),
             rank: Rank::new(d, &settings.effects),
             locator: Locator::new(d, settings, &mode),
             switcher: Switcher::new(d, &state, &mode),
@@ -170,8 +174,8 @@ impl<T: Scalar> Run<T> {
 
     /// Takes another system of the same kind.
     pub(crate) fn set_system(&mut self, system: Erased<T>) {
-        if self.exponents.is_some() {
-            self.exponents = Exponents::new(&system, &self.settings.effects);
+        if self.hidden.is_some() {
+            self.hidden = Hidden::new(&system, &self.settings.effects);
         }
         self.dynamics.set_system(system);
     }
@@ -425,16 +429,24 @@ impl<T: Scalar> Run<T> {
     }
 
     /// What began at zero with the last step is an ordinary guard in the next, but for a force that is still at its limit to
-    /// rounding: a block that is just held, a contact that carries nothing. Its size is the largest so far, for there may be nothing at an instant.
+    /// rounding, or to what errors make of the directions of slips: a block that is just held, a contact that carries nothing. Its size is the
+    /// largest so far, for there may be nothing at an instant.
     fn forget_zeros(&mut self) {
+        let gap = |(guard, _): &(Guard, usize)| matches!(guard, Guard::Gap(_));
+        self.locator.opened = self.locator.zeros.iter().any(gap);
         self.locator.zeros.clear();
+        let at_limit = &mut self.switcher.decider.decision.at_limit;
+        self.locator.at_limit.append(at_limit);
+        if self.locator.at_limit.is_empty() {
+            return;
+        }
+        self.locator.blur = self.error_of_directions();
         let Switcher { decider, .. } = &mut self.switcher;
-        let held = &mut self.locator.at_limit;
-        held.append(&mut decider.decision.at_limit);
-        held.retain_mut(|(guard, size)| {
+        let limit = AT_LIMIT.max(self.locator.blur);
+        self.locator.at_limit.retain_mut(|(guard, size)| {
             let (value, now) = decider.force(&mut self.dynamics, &self.now.mode, *guard);
             *size = size.max(now);
-            self.now.valued && value.abs() <= AT_LIMIT * *size
+            self.now.valued && value.abs() <= limit * *size
         });
     }
 
@@ -535,6 +547,8 @@ impl<T: Scalar> Run<T> {
     /// Enters the mode that the decider has found.
     fn set_mode_decided(&mut self) {
         self.locator.at_limit.clear();
+        self.locator.blur = 0.0;
+        self.locator.opened = false;
         self.now
             .mode
             .clone_from(&self.switcher.decider.decision.mode);
@@ -645,12 +659,21 @@ impl<T: Scalar> Run<T> {
     }
 
     fn error(&self, error: EvaluationError) -> Error {
-        Error::from_evaluation(
-            error,
-            self.now.t.value(),
-            &self.now.mode,
-            self.description(),
-        )
+        let (time, d) = (self.now.t.value(), self.description());
+        let contradicts = matches!(error, EvaluationError::Inconsistent { .. });
+        match Error::from_evaluation(error, time, &self.now.mode, d) {
+            Error::Singular {
+                time, mode, items, ..
+            } if contradicts && self.is_undecided() => Error::Singular {
+                time,
+                mode,
+                items,
+                reason: "constraints lose rank in this position, perhaps several at once, and the way on from it was not found; an \
+                         offset of a part avoids it, another tolerance may pass it"
+                    .to_owned(),
+            },
+            other => other,
+        }
     }
 
     /// Completes the trajectory.

@@ -167,6 +167,23 @@ impl<T: Scalar> Run<T> {
 
     /// Whether a slip of two components, at the state of the last tape, is lost among the errors of the velocities.
     fn is_within_errors(&self, f: usize) -> bool {
+        self.error_of_direction(f) * ERRORS >= 1.0
+    }
+
+    /// How far the directions of slips may be off, because velocities are; the values are those of the state.
+    pub(super) fn error_of_directions(&mut self) -> f64 {
+        let frictions = 0..self.description().frictions.len();
+        if !frictions.clone().any(|f| self.turns(f)) {
+            return 0.0;
+        }
+        self.dynamics.complete_outputs();
+        let turning = frictions.filter(|&f| self.turns(f));
+        let errors = turning.map(|f| self.error_of_direction(f));
+        errors.fold(0.0, f64::max).min(1.0)
+    }
+
+    /// The error of a slip of two components, at the state of the last tape, from those of the velocities, beside the slip.
+    fn error_of_direction(&self, f: usize) -> f64 {
         let row = self.description().frictions[f].row;
         let error = |row: usize| {
             let terms = self.description().rows[row].jacobian.iter();
@@ -177,7 +194,7 @@ impl<T: Scalar> Run<T> {
             terms.map(error).sum::<f64>()
         };
         let slip = self.dynamics.slip(f).map(|s| s.value());
-        slip[0].hypot(slip[1]) <= ERRORS * error(row).hypot(error(row + 1))
+        error(row).hypot(error(row + 1)) / slip[0].hypot(slip[1])
     }
 
     /// Whether what is listed in `rests` would stay at rest by less friction than it slips with. Leaves `dynamics` in the mode in which it

@@ -29,7 +29,7 @@ pub(super) const RETREAT: f64 = 0.75;
 /// so many times.
 pub(super) const MOST_RETREATS: usize = 5;
 /// Nearer than this to one the equations say nothing reliable about forces,
-const UNDECIDED: f64 = 1e-2;
+pub(super) const UNDECIDED: f64 = 1e-2;
 /// Error of a leap in units of what is allowed for a step: no more than steps have, so that passages do not cost more digits than they do,
 const GOOD: f64 = 0.3;
 /// and where nothing better can be had any more.

@@ -2,7 +2,7 @@
 
 use super::hit::Hit;
 use super::resolution::Resolution;
-use super::singular::{LEAST_DEGREE, MOST_RETREATS, RETREAT};
+use super::singular::{LEAST_DEGREE, MOST_RETREATS, RETREAT, UNDECIDED};
 use super::stiffness::Stiffness;
 use super::{Progress, Run};
 use crate::arithmetic::products::{ROW, Row};
@@ -37,7 +37,7 @@ const LOWER: usize = 4;
 const MOST_TRIES: usize = 10;
 /// What exponents may rise by in a step of other methods than Taylor's, as an order.
 const SLOW_ORDER: usize = 4;
-/// So many times a step is made shorter to follow an exponent.
+/// So many times a step is made shorter for what it hides.
 const MOST_SHORTENED: usize = 16;
 /// So many breaks of guards in a row are no instants that can be passed: a slip that fades has more than a thousand before it rests.
 const MOST_BREAKS: usize = 100_000;
@@ -150,6 +150,7 @@ impl<T: Scalar> Run<T> {
         let mut guarded = h < moves;
         let mut closer = 0;
         let (mut corrections, mut shortened) = (0, 0);
+        let mut jumps = false;
         loop {
             self.write_polynomial(h, order);
             if !self.advances(h) {
@@ -190,7 +191,7 @@ impl<T: Scalar> Run<T> {
             } else {
                 JUST_BEFORE * end
             };
-            if let Some(shorter) = self.hides_exponents(looked, order, shortened) {
+            if let Some(shorter) = self.hides(looked, order, shortened) {
                 shortened += 1;
                 h = shorter;
                 continue;
@@ -206,7 +207,6 @@ impl<T: Scalar> Run<T> {
                 ),
                 Err(_) => (f64::INFINITY, f64::INFINITY),
             };
-            let defect = taylor::worse(motion, guards);
             // A step must not end where the constraints lose rank.
             let distance = self.rank.distance(&self.dynamics);
             if self.ends_close(distance) && closer < MOST_RETREATS {
@@ -218,9 +218,17 @@ impl<T: Scalar> Run<T> {
                 h *= RETREAT;
                 continue;
             }
+            // Of accelerations that jump, at the cut of an `atan2` or a kink that is no branch, a step may take in the last moment only, and
+            // what they change there counts whole.
+            jumps |= motion > 1.0 && self.accelerations_jump(looked, distance);
+            let motion = match jumps {
+                true => motion * (order + 1) as f64,
+                false => motion,
+            };
+            let defect = taylor::worse(motion, guards);
             let control = &mut self.stepper.control;
             // The polynomial is as good at its root however long the step: the next try ends before it.
-            match control.judge(h * end, defect, order) {
+            match control.judge(h * end, defect, order, jumps) {
                 Verdict::Accept => {
                     if self.corrects_composites(&hit, looked, &mut corrections) {
                         continue;
@@ -263,15 +271,15 @@ impl<T: Scalar> Run<T> {
         }
     }
 
-    /// The length of a step that a method of this order can follow all exponents over, if that at hand, up to `end`, is longer;
-    /// it has been shortened so many times for them.
-    fn hides_exponents(&mut self, end: f64, order: usize, shortened: usize) -> Option<f64> {
-        let exponents = self.exponents.as_mut()?;
+    /// The length of a step that hides nothing from a method of this order, if that at hand, up to `end`, is longer; it has been shortened so
+    /// many times for that.
+    fn hides(&mut self, end: f64, order: usize, shortened: usize) -> Option<f64> {
+        let hidden = self.hidden.as_mut()?;
         // An exponent that jumps (at the cut of an atan2) does so in all steps.
         if shortened == MOST_SHORTENED {
             return None;
         }
-        let part = exponents.followed(&self.stepper.step, end, order);
+        let part = hidden.shown(&self.stepper.step, end, order);
         (part < end).then(|| part * self.stepper.step.h.value())
     }
 
@@ -367,19 +375,31 @@ impl<T: Scalar> Run<T> {
         }
     }
 
+    /// Whether accelerations jump up to part `looked` of the step, so far from a loss of rank.
+    fn accelerations_jump(&mut self, looked: f64, distance: f64) -> bool {
+        /// What is larger than this, relative, is not rounding.
+        const JUMP: f64 = 1e-5;
+        self.may_jump && !self.is_undecided() && distance >= UNDECIDED && {
+            let rounding = JUMP + self.blur_of_directions();
+            let accelerations = self.dynamics.acceleration();
+            taylor::differs(&self.stepper.step, looked, accelerations, rounding)
+        }
+    }
+
     /// The same of the guards.
     fn guard_defect(&mut self, hit: &Hit, looked: f64) -> f64 {
         let defect = self.guard_defect_beyond(0.0, hit, looked);
         if defect <= 1.0 {
             return defect;
         }
-        match self.blur_of_directions() {
+        let blur = self.blur_of_directions().max(self.locator.blur);
+        match blur {
             0.0 => defect,
             blur => self.guard_defect_beyond(blur, hit, looked),
         }
     }
 
-    /// The same where forces are known to within `blur` only, relative.
+    /// The same where forces are known to within `blur` only, relative; of those at their limit, relative to what makes them.
     fn guard_defect_beyond(&mut self, blur: f64, hit: &Hit, looked: f64) -> f64 {
         let tolerance = self.settings.tolerance;
         self.locator.polynomials.defect(
@@ -387,7 +407,7 @@ impl<T: Scalar> Run<T> {
             &self.now.mode,
             looked,
             [tolerance, blur],
-            is_located(&self.locator.fallen, hit),
+            self.locator.known(hit),
         )
     }
 
@@ -398,7 +418,7 @@ impl<T: Scalar> Run<T> {
             &self.now.mode,
             looked,
             self.settings.tolerance,
-            is_located(&self.locator.fallen, hit),
+            self.locator.known(hit),
         )
     }
 
@@ -517,7 +537,7 @@ impl<T: Scalar> Run<T> {
             if self.passes_close() {
                 break;
             }
-            if let Some(shorter) = self.hides_exponents(1.0, SLOW_ORDER, shortened) {
+            if let Some(shorter) = self.hides(1.0, SLOW_ORDER, shortened) {
                 shortened += 1;
                 self.recorder.trajectory.work.rejected += 1;
                 h = shorter;
@@ -677,12 +697,6 @@ impl<T: Scalar> Run<T> {
             Err(e) => Err(self.error(e)),
         }
     }
-}
-
-/// Whether a guard is one of the `fallen` whose root is the end of the step, or belongs to the stop that is.
-fn is_located(fallen: &[Guard], hit: &Hit) -> impl Fn(Guard) -> bool {
-    let stops = matches!(hit, Hit::Stop(..));
-    move |guard| fallen.contains(&guard) || stops && matches!(guard, Guard::Stop(..))
 }
 
 /// Writes the series that `dynamics` holds onto the step, the state at its end and the changes of the velocities.

@@ -3,7 +3,6 @@
 use super::accumulation::{Impacts, Train};
 use super::{Progress, Run};
 use crate::arithmetic::Scalar;
-use crate::dynamics::row_name;
 use crate::effects::Item;
 use crate::error::Error;
 use crate::mode::{FrictionMode, Mode};
@@ -26,9 +25,6 @@ const ENTERS: f64 = 10.0;
 
 /// What is no larger than this beside the terms that make it is what rounding has left of zero.
 const ROUNDING: f64 = 1e-13;
-
-/// What acts jumps by more than this, relative, where it has a corner.
-const CORNER: f64 = 1e-6;
 
 /// What decides how the motion goes on.
 #[derive(Debug)]
@@ -242,7 +238,8 @@ impl<T: Scalar> Run<T> {
         let arrives = facts.arriving.contains(&true);
         let hit = arrives && self.hit(facts)?;
         let leaves_an_edge = |guard: &Guard| matches!(guard, Guard::Region(_));
-        if arrives || facts.located.iter().any(leaves_an_edge) {
+        // A gap that has just begun to open may still be as good as closed, where something else changes at once.
+        if arrives || self.locator.opened || facts.located.iter().any(leaves_an_edge) {
             self.take_what_touches(facts);
         }
         if !hit {
@@ -410,34 +407,6 @@ impl<T: Scalar> Run<T> {
             && rate.abs() <= ROUNDING * size
     }
 
-    /// Where a piecewise expression changes, what acts may not jump: no law says what velocities do there.
-    fn refuse_corners(&mut self) -> Result<(), Error> {
-        if self.recorder.before.mode.branches == self.now.mode.branches {
-            return Ok(());
-        }
-        let State { q, v, .. } = &self.now.state;
-        let (position, velocity) = self.dynamics.residuals(self.now.t, q, v);
-        self.now.valued = false;
-        let (d, time) = (self.description(), self.now.t.value());
-        let most = CORNER.max(1e3 * self.settings.tolerance);
-        if position.relative > most {
-            return Err(Error::Discontinuous {
-                time,
-                item: row_name(d, position.row),
-                before: 0.0,
-                after: position.value,
-            });
-        }
-        if velocity.relative > most {
-            return Err(Error::Corner {
-                time,
-                item: row_name(d, velocity.row),
-                rate: velocity.value,
-            });
-        }
-        Ok(())
-    }
-
     /// Whether the switch has brought rows that the state need not satisfy to rounding.
     fn rows_have_joined(&self) -> bool {
         let (before, after) = (&self.recorder.before.mode, &self.now.mode);
@@ -533,8 +502,8 @@ impl<T: Scalar> Run<T> {
             self.evaluate_all_rows()?;
         }
         ending.retain(|&f| {
-            let (slip, size) = self.rate(self.description().frictions[f].row);
-            slip.abs() <= self.settings.tolerance * size.max(1.0)
+            self.rates_of_slip(f)
+                .all(|(slip, size)| slip.abs() <= self.settings.tolerance * size.max(1.0))
         });
         if !ending.is_empty() {
             self.rest_if_nothing_is_left(&ending, facts);
@@ -567,11 +536,17 @@ impl<T: Scalar> Run<T> {
 
     /// Whether the slip of friction `f` is zero beside the terms that make it.
     pub(super) fn slip_vanishes(&self, f: usize) -> bool {
+        let sizes = self.rates_of_slip(f).map(|(_, size)| size);
+        let size = sizes.fold(0.0, f64::max);
+        let mut rates = self.rates_of_slip(f);
+        rates.all(|(rate, _)| rate.abs() <= ROUNDING * size)
+    }
+
+    /// [`Self::rate`] of every component of the slip of friction `f`.
+    fn rates_of_slip(&self, f: usize) -> impl Iterator<Item = (f64, f64)> {
         let friction = &self.description().frictions[f];
         let rows = friction.row..friction.row + friction.components;
-        let rates = || rows.clone().map(|row| self.rate(row));
-        let size = rates().map(|(_, size)| size).fold(0.0, f64::max);
-        rates().all(|(rate, _)| rate.abs() <= ROUNDING * size)
+        rows.map(|row| self.rate(row))
     }
 
     /// Rate of a row (slip, rate of a gap) and the size of the terms that make it; a velocity that is zero is so only to some

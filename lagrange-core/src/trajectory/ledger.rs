@@ -9,6 +9,7 @@ use super::{EventKind, State, Trajectory};
 use crate::arithmetic::Scalar;
 use crate::dynamics::row_name;
 use crate::error::Error;
+use crate::mode::Mode;
 use crate::system::Description;
 
 /// Work of one item, J; positive if it put energy in.
@@ -253,8 +254,8 @@ fn kind(d: &Description, row: usize) -> &'static str {
     }
 }
 
-/// Energy jumps at impacts, (time, entry, J); several events of one impact book it once. Adds an entry for every item that
-/// was hit.
+/// Energy jumps at impacts, (time, entry, J), and where energies change with time alone; several events of one impact book it once. Adds an entry
+/// for every item that was hit.
 fn jumps<T: Scalar>(
     trajectory: &Trajectory<T>,
     meter: &mut EnergyMeter<'_, T>,
@@ -262,7 +263,12 @@ fn jumps<T: Scalar>(
 ) -> Result<Vec<(f64, usize, f64)>, Error> {
     let d = trajectory.description();
     let mut jumps = Vec::new();
-    let mut booked = None;
+    let time = work.iter().position(|e| e.kind == "time");
+    let mode_of = |mode: &Mode| {
+        let mut modes = trajectory.modes.iter();
+        modes.find(|m| *m == mode).unwrap_or(&trajectory.modes[0])
+    };
+    let (mut booked, mut changed) = (None, None);
     let mut last: Option<&State<T>> = None;
     for event in trajectory.events.iter() {
         let (from, to) = match event.kind {
@@ -277,11 +283,20 @@ fn jumps<T: Scalar>(
                 Some(left) => (left, &event.state),
                 None => continue,
             },
+            EventKind::Branches => {
+                let switch = (event.time.value(), &event.before, &event.after);
+                if let Some(entry) = time.filter(|_| changed != Some(switch)) {
+                    let mut energy =
+                        |mode: &Mode| meter.energies(event.time, mode_of(mode), &event.state);
+                    let [before, after] = [energy(&event.before)?, energy(&event.after)?];
+                    jumps.push((switch.0, entry, (after.jacobi - before.jacobi).value()));
+                }
+                changed = Some(switch);
+                continue;
+            }
             _ => continue,
         };
-        let mut modes = trajectory.modes.iter();
-        let mode = modes.find(|m| **m == event.before);
-        let mode = mode.unwrap_or(&trajectory.modes[0]);
+        let mode = mode_of(&event.before);
         let before = meter.energies(event.time, mode, from)?;
         let after = meter.energies(event.time, mode, to)?;
         let name = event.subject.name(d);

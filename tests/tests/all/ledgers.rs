@@ -253,8 +253,8 @@ fn a_belt_works_while_it_carries() {
     }
 }
 
-/// A force that contains that of a constraint is known when the equations of motion are solved. A potential that jumps in time without
-/// a force is told as it is.
+/// A force that contains that of a constraint is known when the equations of motion are solved. What a potential jumps by in time
+/// is work of time, where no force feels it.
 #[test]
 fn a_force_in_proportion_to_another_is_booked() {
     let scene = Rubbed {
@@ -267,5 +267,6 @@ fn a_force_in_proportion_to_another_is_booked() {
     // It is slowed down by 1 m/s² over 3 t − t²/2 = 4 m.
     agree("rub", work(&ledger, "rub", "force"), -8.0, 1e-12);
     assert_eq!((ledger.start.potential, ledger.end.potential), (6.0, 10.0));
-    agree("closure", ledger.closure, 4.0, 1e-12);
+    agree("time", work(&ledger, "explicit time", "time"), 4.0, 1e-12);
+    agree("closure", ledger.closure, 0.0, 1e-12);
 }

@@ -37,7 +37,7 @@ pub fn run<P: Problem>(problem: &mut P, tolerance: Tolerance, until: f64, h_max:
             problem
                 .acceleration(t + h, &q, &v, &mut a)
                 .expect("regular");
-            match check.judge(h, defect(&step, 1.0, &a, tolerance), order) {
+            match check.judge(h, defect(&step, 1.0, &a, tolerance), order, false) {
                 Verdict::Accept => break,
                 Verdict::Redo { h: smaller } => h = smaller,
             }
@@ -215,7 +215,7 @@ fn wide_gaps_are_caught_by_the_defect() {
     loop {
         fill(&mut step, &coefficients, 0.0, h);
         let a = -step.position(0, 1.0).powi(11);
-        match check.judge(h, defect(&step, 1.0, &[a], tolerance), 10) {
+        match check.judge(h, defect(&step, 1.0, &[a], tolerance), 10, false) {
             Verdict::Accept => break,
             Verdict::Redo { h: smaller } => h = smaller,
         }
@@ -242,7 +242,15 @@ fn coefficients_that_are_not_finite_give_no_step() {
 #[test]
 fn rounding_in_the_accelerations_does_not_shrink_steps_for_ever() {
     let mut check = DefectControl::default();
-    assert!(matches!(check.judge(0.1, 20.0, 15), Verdict::Redo { .. }));
-    assert_eq!(check.judge(0.05, 19.0, 15), Verdict::Accept);
-    assert!(matches!(check.judge(0.1, f64::NAN, 15), Verdict::Redo { h } if h < 0.011));
+    assert!(matches!(
+        check.judge(0.1, 20.0, 15, false),
+        Verdict::Redo { .. }
+    ));
+    let jumps = check.clone().judge(0.05, 19.0, 15, true);
+    assert!(
+        matches!(jumps, Verdict::Redo { .. }),
+        "a jump is no rounding"
+    );
+    assert_eq!(check.judge(0.05, 19.0, 15, false), Verdict::Accept);
+    assert!(matches!(check.judge(0.1, f64::NAN, 15, false), Verdict::Redo { h } if h < 0.011));
 }

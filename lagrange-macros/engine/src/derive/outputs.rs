@@ -66,7 +66,8 @@ fn watches(
 
 /// The branches; to be called last, when all outputs that may contain them are known.
 ///
-/// Users are the needs of the terms that contain a branch, be it inside the guard of another branch.
+/// Users are the needs of the terms that contain a branch, be it inside the guard of another branch. A branch of an energy has that energy
+/// among its users even where equations of motion do not contain it, as the step of a potential: the energy may not jump.
 pub(super) fn branches(sheet: &mut Sheet) -> Vec<Branch<OutputId>> {
     let count = sheet.system.branches.len();
     let declared: Vec<ExprId> = sheet.system.branches.iter().map(|b| b.guard).collect();
@@ -80,6 +81,14 @@ pub(super) fn branches(sheet: &mut Sheet) -> Vec<Branch<OutputId>> {
     let mut users: Vec<SortedSet<NeedId>> = vec![SortedSet::new(); count];
     for (need, term) in sheet.outputs.iter().flat_map(|o| &o.terms) {
         for branch in pool.branches(*term) {
+            users[branch].insert(*need);
+        }
+    }
+    let (system, needs) = (&sheet.system, &sheet.needs);
+    let kinetic = system.kinetic.iter().zip(&needs.kinetic);
+    let potential = system.potential.iter().zip(&needs.potential);
+    for (term, need) in kinetic.chain(potential) {
+        for branch in pool.branches(term.energy) {
             users[branch].insert(*need);
         }
     }

@@ -6,10 +6,13 @@ use super::{exact, with_unit};
 use crate::feasible::Feasible;
 use crate::notation::{rate_unit, velocity_name};
 use crate::outcome::forces;
-use comfy_table::{CellAlignment, ColumnConstraint};
+use comfy_table::{CellAlignment, ColumnConstraint, Width};
 use lagrange_core::prelude::Instant;
 use serde::Serialize;
 use std::io::{self, Write};
+
+/// Columns of a mode at least.
+const LEAST: u16 = 24;
 
 /// A number of every mode: name, unit, and whether it acts, with its value, in each.
 struct Column {
@@ -76,6 +79,10 @@ pub fn table(found: &Feasible, mut out: impl Write) -> io::Result<()> {
     }
     for (index, column) in table.column_iter_mut().enumerate() {
         column.set_padding((if index == 0 { 0 } else { 1 }, 1));
+        if index == 1 {
+            // Beside many numbers, which are wider than a page, modes need not be narrow.
+            column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(LEAST)));
+        }
         if index >= 2 {
             column.set_cell_alignment(CellAlignment::Right);
             // Neither a number nor the name of an acceleration is broken.

@@ -45,6 +45,9 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
             open.join(", ")
         )?;
     }
+    if let Some(choice) = choices(outcome) {
+        writeln!(out, "\n{choice}")?;
+    }
     if let Some(stiffness) = outcome.stiffness() {
         writeln!(out, "\n{stiffness}")?;
     }
@@ -73,6 +76,29 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
         writeln!(out, "{certificate}")?;
     }
     writeln!(out, "\n{}", work(outcome))
+}
+
+/// Where the motion could have gone on in another way, if anywhere.
+fn choices(outcome: &Outcome) -> Option<String> {
+    let groups = instants(&outcome.events);
+    let mut open: Vec<String> = groups
+        .iter()
+        .filter(|(_, group)| group.iter().any(|event| event.ambiguous))
+        .map(|(_, group)| format!("t = {} s", time(group[0].time)))
+        .collect();
+    open.dedup();
+    let told = match open.len() > FEW {
+        true => MANY,
+        false => open.len(),
+    };
+    let more = match open.len() - told {
+        0 => String::new(),
+        more => format!(" and {more} times more"),
+    };
+    let at = open[..told].join(", ");
+    (told > 0).then(|| {
+        format!("More than one motion is possible at {at}{more}: a run takes one, `lagrange modes` lists all.")
+    })
 }
 
 /// One line of the story, before it is laid out.
@@ -645,7 +671,7 @@ mod tests {
         );
         let starting = |with: &str| lines.iter().filter(|line| line.starts_with(with)).count();
         assert_eq!(starting("0.000000"), 1, "{lines:#?}");
-        let start = "0.000000 start 0.0000 0.0000 0.0000 -2.0000 -2.0000 -1.0000 fa slips";
+        let start = "0.000000 start 0.0000 0.0000 0.0000 -2.0000 -2.0000 -1.0000 fa and fb slip";
         assert_eq!(starting(start), 1, "{lines:#?}");
         assert!(
             starting("fa slips") > 0 && starting("fb slips") > 0,

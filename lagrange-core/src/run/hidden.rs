@@ -1,16 +1,22 @@
-//! Exponents along a step: what is too small to be seen where a step begins may be large in its middle.
+//! What a step hides between its ends, where neither its series nor its error shows it.
 //!
-//! A pulse exp(−(t − 5)²/2σ²) has the value 0 at t = 0, to all digits, and so have its derivatives; no step is too long for a
+//! What is too small to be seen where a step begins may be large in its middle. A pulse exp(−(t − 5)²/2σ²) has the value 0 at t = 0, to all digits, and so have its derivatives; no step is too long for a
 //! series of it, and at the end of the step it is 0 again. But its exponent is known: it is no small number, and the declaration
 //! tells how it goes on. A step ends where an exponent has risen by more than a series can follow; whether what has risen then
 //! matters is seen by the next one. (In tanh and in 1/cosh it is the size of the argument that must not fall.)
+//!
+//! An angle `atan2` that passes its cut jumps by 2π, which its series does not know. Where it has come back at the end of a step nothing there
+//! tells of it: the step ends beyond the cut instead, where accelerations show that they have jumped.
 
 use crate::arithmetic::Scalar;
-use crate::declaration::{Declaration, Evaluator, Inputs, Worked, exponentials, exponents};
+use crate::declaration::{
+    self, Declaration, Evaluator, Inputs, Worked, angles, exponentials, exponents,
+};
 use crate::effects::{Effects, Item};
 use crate::integrate::StepPolynomial;
 use crate::system::{Description, Erased};
 use crate::trajectory::State;
+use core::f64::consts::{PI, TAU};
 
 /// What is smaller than exp(−100), 4e-44, does not matter, whatever it is a factor of.
 const NEGLIGIBLE: f64 = -100.0;
@@ -24,48 +30,85 @@ const RAISED: i32 = 8;
 /// A step is looked at in so many pieces.
 const PIECES: usize = 8;
 
-/// The arguments of exp, sinh, cosh and tanh in what acts.
+/// The exponents and angles in what acts.
 #[derive(Debug)]
-pub(super) struct Exponents {
+pub(super) struct Hidden {
     evaluator: Evaluator,
-    /// Each argument, and by how much the exponent changes with it.
-    arguments: Vec<(usize, f64)>,
-    /// Per argument: itself and its change over a piece, at the beginning of the piece.
-    before: Vec<[f64; 2]>,
-    /// Per argument: up to where its exponent may rise.
-    highest: Vec<f64>,
+    exponents: Vec<Exponent>,
+    angles: Vec<Angle>,
     q: Vec<f64>,
     v: Vec<f64>,
     still: Vec<f64>,
 }
 
-impl Exponents {
+/// The argument of exp, sinh, cosh or tanh.
+#[derive(Debug)]
+struct Exponent {
+    argument: usize,
+    /// By how much the exponent changes with the argument.
+    factor: f64,
+    /// The argument and its change over a piece, at the beginning of the piece.
+    before: Ends,
+    /// Up to where the exponent may rise.
+    highest: f64,
+}
+
+/// A value of `atan2`.
+#[derive(Debug)]
+struct Angle {
+    value: usize,
+    /// The angle and its change over a piece, at the beginning of the piece.
+    before: Ends,
+    /// How often it has jumped up, less how often it has jumped down.
+    jumps: f64,
+    /// The first place beyond the cut, as a part of the step.
+    beyond: Option<f64>,
+}
+
+/// A value, and its change over a piece.
+type Ends = [f64; 2];
+
+impl Hidden {
     /// Those of a system, if it has any.
     pub(super) fn new<T: Scalar>(system: &Erased<T>, effects: &Effects) -> Option<Self> {
         let (d, declaration) = (system.description(), system.declaration());
         let mut arguments = exponents(declaration, acting(d, declaration, effects));
-        if arguments.is_empty() {
+        let mut values = angles(declaration, acting(d, declaration, effects));
+        if arguments.is_empty() && values.is_empty() {
             return None;
         }
         let wanted = arguments.iter().map(|&(argument, _)| argument);
+        let wanted = wanted.chain(values.iter().copied());
         let evaluator = Evaluator::new(declaration, &parameters(system), wanted);
-        arguments.retain(|&(argument, _)| {
-            evaluator.moves(argument) && !evaluator.is_of_forces(argument)
+        let follows = |value: usize| evaluator.moves(value) && !evaluator.is_of_forces(value);
+        arguments.retain(|&(argument, _)| follows(argument));
+        values.retain(|&value| follows(value));
+        let exponents = arguments.iter().map(|&(argument, factor)| Exponent {
+            argument,
+            factor,
+            before: [0.0; 2],
+            highest: 0.0,
         });
-        let (n, count) = (d.coordinates.len(), arguments.len());
-        (count > 0).then(|| Self {
+        let angles = values.iter().map(|&value| Angle {
+            value,
+            before: [0.0; 2],
+            jumps: 0.0,
+            beyond: None,
+        });
+        let n = d.coordinates.len();
+        let hidden = Self {
+            exponents: exponents.collect(),
+            angles: angles.collect(),
             evaluator,
-            arguments,
-            before: vec![[0.0; 2]; count],
-            highest: vec![0.0; count],
             q: vec![0.0; n],
             v: vec![0.0; n],
             still: vec![0.0; n],
-        })
+        };
+        (!hidden.exponents.is_empty() || !hidden.angles.is_empty()).then_some(hidden)
     }
 
-    /// Which part of a step, up to `end` of it, a method of this order can follow all exponents over: `end`, or less.
-    pub(super) fn followed<T: Scalar>(
+    /// The part of a step, up to `end` of it, that hides nothing from a method of this order: `end`, or less.
+    pub(super) fn shown<T: Scalar>(
         &mut self,
         step: &StepPolynomial<T>,
         end: f64,
@@ -75,28 +118,40 @@ impl Exponents {
         let piece = end / PIECES as f64;
         let change = piece * step.h.value();
         self.look(step, 0.0);
-        for (k, &(argument, factor)) in self.arguments.iter().enumerate() {
-            let z = [
-                self.evaluator.value(argument),
-                change * self.evaluator.rate(argument),
-            ];
-            self.before[k] = z;
-            self.highest[k] = f64::max(-factor * z[0].abs(), NEGLIGIBLE) + rise;
+        let ends = |evaluator: &Evaluator, value: usize| {
+            [evaluator.value(value), change * evaluator.rate(value)]
+        };
+        for exponent in &mut self.exponents {
+            exponent.before = ends(&self.evaluator, exponent.argument);
+            let size = exponent.before[0].abs();
+            exponent.highest = f64::max(-exponent.factor * size, NEGLIGIBLE) + rise;
+        }
+        for angle in &mut self.angles {
+            angle.before = ends(&self.evaluator, angle.value);
+            (angle.jumps, angle.beyond) = (0.0, None);
         }
         for n in 1..=PIECES {
             self.look(step, n as f64 * piece);
-            for (k, &(argument, factor)) in self.arguments.iter().enumerate() {
-                let after = [
-                    self.evaluator.value(argument),
-                    change * self.evaluator.rate(argument),
-                ];
-                if -factor * least_size(self.before[k], after) > self.highest[k] {
+            for exponent in &mut self.exponents {
+                let after = ends(&self.evaluator, exponent.argument);
+                let least = least_size(exponent.before, after);
+                if -exponent.factor * least > exponent.highest {
                     return f64::max((n - 1) as f64, 0.5) * piece;
                 }
-                self.before[k] = after;
+                exponent.before = after;
+            }
+            for angle in &mut self.angles {
+                let after = ends(&self.evaluator, angle.value);
+                if let Some((s, jumps)) = passes_cut(angle.before, after) {
+                    angle.jumps += jumps;
+                    angle.beyond.get_or_insert(((n - 1) as f64 + s) * piece);
+                }
+                angle.before = after;
             }
         }
-        end
+        let back = self.angles.iter().filter(|angle| angle.jumps == 0.0);
+        let beyond = back.filter_map(|angle| angle.beyond);
+        beyond.fold(end, f64::min)
     }
 
     fn look<T: Scalar>(&mut self, step: &StepPolynomial<T>, s: f64) {
@@ -114,6 +169,12 @@ impl Exponents {
             loads: &[],
         });
     }
+}
+
+/// Whether accelerations may jump where no branch says so.
+pub(super) fn may_jump<T: Scalar>(system: &Erased<T>, effects: &Effects) -> bool {
+    let (d, declaration) = (system.description(), system.declaration());
+    declaration::may_jump(declaration, acting(d, declaration, effects))
 }
 
 /// Whether functions in what acts are so large at a state that powers of them are beyond all numbers.
@@ -149,29 +210,41 @@ fn parameters<T: Scalar>(system: &Erased<T>) -> Vec<f64> {
 }
 
 /// Least |z| of the cubic with these values and changes at both ends of a piece.
-fn least_size([before, falls]: [f64; 2], [after, rises]: [f64; 2]) -> f64 {
-    if before * after <= 0.0 {
+fn least_size(before: Ends, after: Ends) -> f64 {
+    let ([first, _], [last, _]) = (before, after);
+    if first * last <= 0.0 {
         return 0.0;
     }
-    let mut least = before.abs().min(after.abs());
-    // z = before + falls·s + b s² + c s³, whose slope vanishes at two places at most.
+    let least = first.abs().min(last.abs());
+    extremes(before, after).fold(least, |least, (_, z)| match z * first <= 0.0 {
+        true => 0.0,
+        false => least.min(z.abs()),
+    })
+}
+
+/// Where an angle is beyond its cut in a piece, and how often it has jumped up there: once, or −1 times, or not where it has come back.
+fn passes_cut(before: Ends, after: Ends) -> Option<(f64, f64)> {
+    let grows = (before[1] + after[1]) / 2.0;
+    let jumps = ((after[0] - before[0] - grows) / TAU).round();
+    if jumps != 0.0 {
+        return Some((1.0, jumps));
+    }
+    let mut extremes = extremes(before, after);
+    extremes.find_map(|(s, z)| (z.abs() > PI).then_some((s, 0.0)))
+}
+
+/// Where the slope of the cubic with these values and changes at both ends of a piece vanishes in it, and its values there.
+fn extremes([first, falls]: Ends, [last, rises]: Ends) -> impl Iterator<Item = (f64, f64)> {
+    // z = first + falls·s + b s² + c s³, whose slope vanishes at two places at most.
     let (b, c) = (
-        3.0 * (after - before) - 2.0 * falls - rises,
-        2.0 * (before - after) + falls + rises,
+        3.0 * (last - first) - 2.0 * falls - rises,
+        2.0 * (first - last) + falls + rises,
     );
     let root = (b * b - 3.0 * c * falls).max(0.0).sqrt();
     let q = -(b + root.copysign(b));
-    for s in [q / (3.0 * c), falls / q] {
-        if s > 0.0 && s < 1.0 {
-            let z = before + s * (falls + s * (b + s * c));
-            least = if z * before <= 0.0 {
-                0.0
-            } else {
-                least.min(z.abs())
-            };
-        }
-    }
-    least
+    let places = [q / (3.0 * c), falls / q].into_iter();
+    let inside = places.filter(|&s| s > 0.0 && s < 1.0);
+    inside.map(move |s| (s, first + s * (falls + s * (b + s * c))))
 }
 
 /// What is declared, less what is left out.
@@ -223,7 +296,21 @@ fn acting(d: &Description, declaration: &Declaration, effects: &Effects) -> Vec<
 
 #[cfg(test)]
 mod tests {
-    use super::least_size;
+    use super::{PI, TAU, least_size, passes_cut};
+
+    #[test]
+    fn angles_pass_their_cut_at_an_end_of_a_piece_or_in_between() {
+        assert_eq!(passes_cut([1.0, 0.5], [1.5, 0.5]), None);
+        assert_eq!(passes_cut([3.0, 0.4], [3.4 - TAU, 0.4]), Some((1.0, -1.0)));
+        assert_eq!(
+            passes_cut([-3.0, -0.4], [TAU - 3.4, -0.4]),
+            Some((1.0, 1.0))
+        );
+        // π − 0.1 + s − s² is highest in the middle, 0.15 beyond the cut.
+        let returns = passes_cut([PI - 0.1, 1.0], [PI - 0.1, -1.0]);
+        assert_eq!(returns, Some((0.5, 0.0)));
+        assert_eq!(passes_cut([PI - 0.3, 1.0], [PI - 0.3, -1.0]), None);
+    }
 
     #[test]
     fn least_sizes_of_cubics_are_found_between_the_ends() {

@@ -1,0 +1,187 @@
+//! Where a piecewise expression changes, forces may jump, but not what would make velocities jump: no law says what they do there.
+//!
+//! The rate of a constraint may not, nor a momentum ∂L/∂v, nor L itself where that depends on the motion: a step of a potential refracts
+//! what passes it, or reflects it. Energies that jump with time alone do work, which the ledger books.
+
+use super::Run;
+use crate::arithmetic::Scalar;
+use crate::declaration::{Declaration, Evaluator, Gradient, Inputs, Seed};
+use crate::dynamics::row_name;
+use crate::effects::{Effects, Item};
+use crate::error::Error;
+use crate::system::Erased;
+use crate::trajectory::State;
+use core::cmp::Ordering;
+
+/// What jumps by more than this, relative, has a corner.
+const CORNER: f64 = 1e-6;
+
+/// A condition whose value is no larger than this, beside what makes it, changes at the instant.
+const VANISHES: f64 = 1e-9;
+
+/// L of the effects that act, as declared.
+struct Lagrangian {
+    evaluator: Evaluator,
+    /// T, with the weight 1, and V, with −1.
+    seeds: Vec<Seed>,
+    /// Of the last state: ∂L/∂v.
+    gradients: Vec<Gradient>,
+}
+
+/// L on one side of a change, with the sum of its terms' sizes.
+struct Side {
+    value: f64,
+    size: f64,
+    gradients: Vec<Gradient>,
+}
+
+impl Lagrangian {
+    fn new<T: Scalar>(system: &Erased<T>, effects: &Effects) -> Self {
+        let (d, declaration): (_, &Declaration) = (system.description(), system.declaration());
+        let term = |value: usize, gradient: f64| Seed {
+            value,
+            variation: [0.0; 2],
+            gradient,
+        };
+        let kinetic = declaration.kinetic.iter().enumerate();
+        let kinetic = kinetic.filter(|(i, _)| effects.includes(d, Item::Kinetic(*i)));
+        let potential = declaration.potential.iter().enumerate();
+        let potential = potential.filter(|(i, _)| effects.includes(d, Item::Potential(*i)));
+        let seeds = kinetic.map(|(_, &value)| term(value, 1.0));
+        let seeds: Vec<Seed> = seeds
+            .chain(potential.map(|(_, &value)| term(value, -1.0)))
+            .collect();
+        let count = d.parameters.len();
+        let parameters: Vec<f64> = (0..count).map(|i| system.parameter(i).value()).collect();
+        let values = seeds.iter().map(|seed| seed.value);
+        Self {
+            evaluator: Evaluator::new(declaration, &parameters, values),
+            seeds,
+            gradients: vec![Gradient::default(); d.coordinates.len()],
+        }
+    }
+
+    /// What choices depend on that vanishes at the state evaluated last, and whether any of it changes with the motion.
+    fn changing(&mut self, q: &[f64], v: &[f64], time: f64) -> (Vec<usize>, bool) {
+        let mut derivatives = vec![[0.0; 3]; q.len()];
+        let mut moves = false;
+        let mut guards = self.evaluator.guards();
+        guards.retain(|&guard| {
+            let [value, rate] = [0, 1].map(|k| self.evaluator.coefficient(guard, k).abs());
+            self.evaluator.gradient_size(guard, 0, &mut derivatives);
+            let by = derivatives.iter().zip(q.iter().zip(v));
+            let by_motion: f64 = by
+                .map(|([position, velocity, _], (q, v))| {
+                    position * (1.0 + q.abs()) + velocity * (1.0 + v.abs())
+                })
+                .sum();
+            let vanishes = value <= VANISHES * (by_motion + rate * (1.0 + time.abs()));
+            moves |= vanishes && by_motion > 0.0;
+            vanishes
+        });
+        (guards, moves)
+    }
+
+    /// L where these conditions are taken for zero, or for less.
+    fn side(&mut self, ordering: Ordering, guards: &[usize], at: Inputs<'_>) -> Side {
+        let guards = guards.iter().map(|&guard| (guard, ordering));
+        self.evaluator.take_for(guards);
+        self.evaluator.evaluate(at);
+        self.evaluator.sweep(&self.seeds, &mut self.gradients);
+        let terms = self.seeds.iter();
+        let terms = terms.map(|seed| seed.gradient * self.evaluator.value(seed.value));
+        let (value, size) = terms.fold((0.0, 0.0), |(sum, size), x| (sum + x, size + x.abs()));
+        Side {
+            value,
+            size,
+            gradients: self.gradients.clone(),
+        }
+    }
+}
+
+impl<T: Scalar> Run<T> {
+    /// Refuses what would make velocities jump where the branches of a switch change.
+    ///
+    /// # Errors
+    /// [`Error::Discontinuous`], [`Error::Corner`] and [`Error::Kick`].
+    pub(super) fn refuse_corners(&mut self) -> Result<(), Error> {
+        if self.recorder.before.mode.branches == self.now.mode.branches {
+            return Ok(());
+        }
+        let State { q, v, .. } = &self.now.state;
+        let (position, velocity) = self.dynamics.residuals(self.now.t, q, v);
+        self.now.valued = false;
+        let (d, time) = (self.description(), self.now.t.value());
+        let most = CORNER.max(1e3 * self.settings.tolerance);
+        if position.relative > most {
+            return Err(Error::Discontinuous {
+                time,
+                item: row_name(d, position.row),
+                before: 0.0,
+                after: position.value,
+            });
+        }
+        if velocity.relative > most {
+            return Err(Error::Corner {
+                time,
+                item: row_name(d, velocity.row),
+                rate: velocity.value,
+            });
+        }
+        self.refuse_kicks()
+    }
+
+    /// Refuses momenta and Lagrangians that jump.
+    fn refuse_kicks(&self) -> Result<(), Error> {
+        let d = self.description();
+        let mut lagrangian = Lagrangian::new(self.dynamics.system(), self.dynamics.effects());
+        if lagrangian.evaluator.guards().is_empty() {
+            return Ok(());
+        }
+        let numbers = |list: &[T]| -> Vec<f64> { list.iter().map(|x| x.value()).collect() };
+        let [q, v] = [&self.now.state.q, &self.now.state.v].map(|x| numbers(x));
+        let time = self.now.t.value();
+        let still = vec![0.0; q.len()];
+        let at = Inputs {
+            time,
+            q: &q,
+            v: &v,
+            acceleration: &still,
+            forces: &[],
+            loads: &[],
+        };
+        lagrangian.evaluator.evaluate(at);
+        let (guards, moves) = lagrangian.changing(&q, &v, time);
+        let modes = [&self.recorder.before.mode, &self.now.mode];
+        let differs = |b: &usize| modes[0].branch(*b) != modes[1].branch(*b);
+        let Some(branch) = (0..d.branches.len()).find(differs) else {
+            return Ok(());
+        };
+        // A condition holds from zero on.
+        let sides = match modes[0].branch(branch) {
+            true => [Ordering::Equal, Ordering::Less],
+            false => [Ordering::Less, Ordering::Equal],
+        };
+        let [before, after] = sides.map(|ordering| lagrangian.side(ordering, &guards, at));
+        let kick = |momentum, before, after| Error::Kick {
+            time,
+            condition: d.branches[branch].then,
+            momentum,
+            before,
+            after,
+        };
+        let momenta = before.gradients.iter().zip(&after.gradients);
+        let momenta = momenta.map(|(before, after)| [before.velocity, after.velocity]);
+        let sizes = momenta.clone().flatten().map(|momentum| momentum.size);
+        let size = sizes.fold(0.0, f64::max);
+        for (coordinate, [before, after]) in d.coordinates.iter().zip(momenta) {
+            if (after.sum - before.sum).abs() > CORNER * size {
+                return Err(kick(Some(coordinate.name), before.sum, after.sum));
+            }
+        }
+        if moves && (after.value - before.value).abs() > CORNER * before.size.max(after.size) {
+            return Err(kick(None, before.value, after.value));
+        }
+        Ok(())
+    }
+}
