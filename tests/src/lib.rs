@@ -106,6 +106,14 @@ pub fn run_by<S: System<Scalar = f64>>(
     }
 }
 
+/// Asserts that a recorded run obeys its declaration, by its certificate.
+#[track_caller]
+pub fn certified(what: impl core::fmt::Display, trajectory: &Trajectory) {
+    let certificate = trajectory.verify(1).expect("a recorded run");
+    let name = trajectory.description().name;
+    assert!(certificate.holds(), "{name} {what}: {certificate}");
+}
+
 /// One step `h` of the classical Runge–Kutta method from (`t`, `y`), for reduced equations that results are compared with.
 pub fn runge_kutta<const N: usize>(
     slope: impl Fn(f64, [f64; N]) -> [f64; N],

@@ -19,16 +19,20 @@ const CORNER: f64 = 1e-6;
 /// A condition whose value is no larger than this, beside what makes it, changes at the instant.
 const VANISHES: f64 = 1e-9;
 
-/// L of the effects that act, as declared.
-struct Lagrangian {
+/// L of the effects that act, as declared, where a choice in it changes with the motion or with time.
+#[derive(Debug)]
+pub(super) struct Lagrangian {
     evaluator: Evaluator,
+    /// What the choices depend on.
+    guards: Vec<usize>,
     /// T, with the weight 1, and V, with −1.
     seeds: Vec<Seed>,
-    /// Of the last state: ∂L/∂v.
-    gradients: Vec<Gradient>,
 }
 
-/// L on one side of a change, with the sum of its terms' sizes.
+/// A condition that changes at an instant: its value, and what it is taken for before and after.
+type Change = (usize, [Ordering; 2]);
+
+/// L on one side of a change, with the sum of its terms' sizes, and ∂/∂v.
 struct Side {
     value: f64,
     size: f64,
@@ -36,7 +40,8 @@ struct Side {
 }
 
 impl Lagrangian {
-    fn new<T: Scalar>(system: &Erased<T>, effects: &Effects) -> Self {
+    /// That of a system, if it has such a choice.
+    pub(super) fn new<T: Scalar>(system: &Erased<T>, effects: &Effects) -> Option<Self> {
         let (d, declaration): (_, &Declaration) = (system.description(), system.declaration());
         let term = |value: usize, gradient: f64| Seed {
             value,
@@ -54,47 +59,61 @@ impl Lagrangian {
         let count = d.parameters.len();
         let parameters: Vec<f64> = (0..count).map(|i| system.parameter(i).value()).collect();
         let values = seeds.iter().map(|seed| seed.value);
-        Self {
-            evaluator: Evaluator::new(declaration, &parameters, values),
+        let evaluator = Evaluator::new(declaration, &parameters, values);
+        let guards = evaluator.guards();
+        (!guards.is_empty()).then_some(Self {
+            evaluator,
+            guards,
             seeds,
-            gradients: vec![Gradient::default(); d.coordinates.len()],
-        }
+        })
     }
 
-    /// What choices depend on that vanishes at the state evaluated last, and whether any of it changes with the motion.
-    fn changing(&mut self, q: &[f64], v: &[f64], time: f64) -> (Vec<usize>, bool) {
-        let mut derivatives = vec![[0.0; 3]; q.len()];
+    /// The conditions that vanish at a state, and whether any of them changes with the motion.
+    fn changes(&mut self, at: Inputs<'_>) -> (Vec<Change>, bool) {
+        self.evaluator.take_for([]);
+        self.evaluator.evaluate(at);
+        let mut derivatives = vec![[0.0; 3]; at.q.len()];
         let mut moves = false;
-        let mut guards = self.evaluator.guards();
-        guards.retain(|&guard| {
-            let [value, rate] = [0, 1].map(|k| self.evaluator.coefficient(guard, k).abs());
+        let change = |&guard: &usize| {
+            let [value, rate] = [0, 1].map(|k| self.evaluator.coefficient(guard, k));
             self.evaluator.gradient_size(guard, 0, &mut derivatives);
-            let by = derivatives.iter().zip(q.iter().zip(v));
-            let by_motion: f64 = by
+            let state = at.q.iter().zip(at.v);
+            let terms = derivatives
+                .iter()
+                .zip(state)
                 .map(|([position, velocity, _], (q, v))| {
                     position * (1.0 + q.abs()) + velocity * (1.0 + v.abs())
-                })
-                .sum();
-            let vanishes = value <= VANISHES * (by_motion + rate * (1.0 + time.abs()));
+                });
+            let by_motion: f64 = terms.sum();
+            let size = by_motion + rate.abs() * (1.0 + at.time.abs());
+            let vanishes = value.abs() <= VANISHES * size;
             moves |= vanishes && by_motion > 0.0;
-            vanishes
-        });
-        (guards, moves)
+            let sides = match rate > 0.0 {
+                true => [Ordering::Less, Ordering::Equal],
+                false => [Ordering::Equal, Ordering::Less],
+            };
+            (vanishes && rate != 0.0).then_some((guard, sides))
+        };
+        let changes: Vec<Change> = self.guards.iter().filter_map(change).collect();
+        (changes, moves)
     }
 
-    /// L where these conditions are taken for zero, or for less.
-    fn side(&mut self, ordering: Ordering, guards: &[usize], at: Inputs<'_>) -> Side {
-        let guards = guards.iter().map(|&guard| (guard, ordering));
-        self.evaluator.take_for(guards);
+    /// L before what changes does, or after.
+    fn side(&mut self, after: bool, changes: &[Change], at: Inputs<'_>) -> Side {
+        let taken = changes
+            .iter()
+            .map(|(guard, sides)| (*guard, sides[usize::from(after)]));
+        self.evaluator.take_for(taken);
         self.evaluator.evaluate(at);
-        self.evaluator.sweep(&self.seeds, &mut self.gradients);
+        let mut gradients = vec![Gradient::default(); at.q.len()];
+        self.evaluator.sweep(&self.seeds, &mut gradients);
         let terms = self.seeds.iter();
         let terms = terms.map(|seed| seed.gradient * self.evaluator.value(seed.value));
         let (value, size) = terms.fold((0.0, 0.0), |(sum, size), x| (sum + x, size + x.abs()));
         Side {
             value,
             size,
-            gradients: self.gradients.clone(),
+            gradients,
         }
     }
 }
@@ -132,40 +151,32 @@ impl<T: Scalar> Run<T> {
     }
 
     /// Refuses momenta and Lagrangians that jump.
-    fn refuse_kicks(&self) -> Result<(), Error> {
+    fn refuse_kicks(&mut self) -> Result<(), Error> {
         let d = self.description();
-        let mut lagrangian = Lagrangian::new(self.dynamics.system(), self.dynamics.effects());
-        if lagrangian.evaluator.guards().is_empty() {
+        let Some(lagrangian) = &mut self.lagrangian else {
             return Ok(());
-        }
+        };
+        let modes = [&self.recorder.before.mode, &self.now.mode];
+        let differs = |(b, _): &(usize, _)| modes[0].branch(*b) != modes[1].branch(*b);
+        let Some((_, branch)) = d.branches.iter().enumerate().find(differs) else {
+            return Ok(());
+        };
         let numbers = |list: &[T]| -> Vec<f64> { list.iter().map(|x| x.value()).collect() };
         let [q, v] = [&self.now.state.q, &self.now.state.v].map(|x| numbers(x));
         let time = self.now.t.value();
-        let still = vec![0.0; q.len()];
         let at = Inputs {
             time,
             q: &q,
             v: &v,
-            acceleration: &still,
+            acceleration: &vec![0.0; q.len()],
             forces: &[],
             loads: &[],
         };
-        lagrangian.evaluator.evaluate(at);
-        let (guards, moves) = lagrangian.changing(&q, &v, time);
-        let modes = [&self.recorder.before.mode, &self.now.mode];
-        let differs = |b: &usize| modes[0].branch(*b) != modes[1].branch(*b);
-        let Some(branch) = (0..d.branches.len()).find(differs) else {
-            return Ok(());
-        };
-        // A condition holds from zero on.
-        let sides = match modes[0].branch(branch) {
-            true => [Ordering::Equal, Ordering::Less],
-            false => [Ordering::Less, Ordering::Equal],
-        };
-        let [before, after] = sides.map(|ordering| lagrangian.side(ordering, &guards, at));
+        let (changes, moves) = lagrangian.changes(at);
+        let [before, after] = [false, true].map(|after| lagrangian.side(after, &changes, at));
         let kick = |momentum, before, after| Error::Kick {
             time,
-            condition: d.branches[branch].then,
+            condition: branch.then,
             momentum,
             before,
             after,

@@ -40,6 +40,7 @@ use crate::system::Erased;
 use crate::system::{Description, Watch};
 use crate::trajectory::{EventKind, State, Subject, Trajectory, Work};
 use core::ops::Range;
+use corners::Lagrangian;
 use hidden::Hidden;
 use hit::Hit;
 use hits::Locator;
@@ -80,6 +81,8 @@ pub(crate) struct Run<T: Scalar> {
     hidden: Option<Hidden>,
     /// Whether accelerations may jump where no branch says so.
     may_jump: bool,
+    /// Of what is declared, if a choice in it may change.
+    lagrangian: Option<Lagrangian>,
     /// Watches for positions where constraints lose rank.
     rank: Rank,
     locator: Locator<T>,
@@ -144,6 +147,7 @@ impl<T: Scalar> Run<T> {
             stepper: Stepper::new(settings, d, &state),
             hidden: Hidden::new(&system, &settings.effects),
             may_jump: hidden::may_jump(&system, &settings.effects),
+            lagrangian: Lagrangian::new(&system, &settings.effects),
             rank: Rank::new(d, &settings.effects),
             locator: Locator::new(d, settings, &mode),
             switcher: Switcher::new(d, &state, &mode),
@@ -176,6 +180,9 @@ impl<T: Scalar> Run<T> {
     pub(crate) fn set_system(&mut self, system: Erased<T>) {
         if self.hidden.is_some() {
             self.hidden = Hidden::new(&system, &self.settings.effects);
+        }
+        if self.lagrangian.is_some() {
+            self.lagrangian = Lagrangian::new(&system, &self.settings.effects);
         }
         self.dynamics.set_system(system);
     }

@@ -269,18 +269,18 @@ fn jumps<T: Scalar>(
         modes.find(|m| *m == mode).unwrap_or(&trajectory.modes[0])
     };
     let (mut booked, mut changed) = (None, None);
-    let mut last: Option<&State<T>> = None;
+    let mut last: Option<(T, &State<T>)> = None;
     for event in trajectory.events.iter() {
-        let (from, to) = match event.kind {
+        let (began, from, to) = match event.kind {
             // Impacts that follow each other at one instant begin in different states.
             EventKind::Impact if booked != Some(&event.state) => {
                 booked = Some(&event.state);
-                last = Some(&event.state_after);
-                (&event.state, &event.state_after)
+                last = Some((event.time, &event.state_after));
+                (event.time, &event.state, &event.state_after)
             }
-            // What the last impact left is lost in the infinitely many that follow.
+            // What the last impact left is lost in the infinitely many that follow, which take some time.
             EventKind::Accumulates { .. } => match last.take() {
-                Some(left) => (left, &event.state),
+                Some((time, left)) => (time, left, &event.state),
                 None => continue,
             },
             EventKind::Branches => {
@@ -297,7 +297,7 @@ fn jumps<T: Scalar>(
             _ => continue,
         };
         let mode = mode_of(&event.before);
-        let before = meter.energies(event.time, mode, from)?;
+        let before = meter.energies(began, mode, from)?;
         let after = meter.energies(event.time, mode, to)?;
         let name = event.subject.name(d);
         let known = work

@@ -1,7 +1,7 @@
 //! The ledger over time, against closed forms.
 
 use lagrange_core::prelude::*;
-use lagrange_tests::{Random, agree, run};
+use lagrange_tests::{Random, agree, closure, event, run};
 
 /// A damped oscillator.
 #[derive(Lagrangian, Clone, Debug)]
@@ -269,4 +269,39 @@ fn a_force_in_proportion_to_another_is_booked() {
     assert_eq!((ledger.start.potential, ledger.end.potential), (6.0, 10.0));
     agree("time", work(&ledger, "explicit time", "time"), 4.0, 1e-12);
     agree("closure", ledger.closure, 0.0, 1e-12);
+}
+
+/// A machine on the ground with a part in it that goes up and down, and lifts it off.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y),
+    define(part = y + stroke * sin(rate * t)),
+    kinetic = mass/2 * der(y)^2 + moved/2 * der(part)^2,
+    potential = gravity * (mass * y + moved * part),
+    contact(ground: y >= 0, restitution = bounce),
+)]
+struct Rammer {
+    mass: f64,
+    moved: f64,
+    stroke: f64,
+    rate: f64,
+    gravity: f64,
+    bounce: f64,
+}
+
+/// Impacts that die out take some time, in which what moves by itself goes on; the ledger counts that time.
+#[test]
+fn what_goes_on_while_impacts_die_out_is_booked() {
+    let rammer = Rammer {
+        mass: 6.0,
+        moved: 1.0,
+        stroke: 0.05,
+        rate: 50.0,
+        gravity: 9.81,
+        bounce: 0.3,
+    };
+    let trajectory = run(&rammer, State::new(vec![0.0], vec![0.0]), 3.0);
+    let died_out = event(&trajectory, "ground", "accumulates").time;
+    assert!(died_out < 1.0, "{died_out}");
+    assert!(closure(&trajectory) < 1e-11, "{:e}", closure(&trajectory));
 }

@@ -6,7 +6,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::agree;
+use lagrange_tests::{agree, certified};
 use nalgebra::{Complex, ComplexField, DMatrix, Matrix4};
 
 /// x forward, y to the right, z down; SI units. The frame leans by φ, is pitched by θ, and the fork is steered by δ.
@@ -72,7 +72,7 @@ fn eigenvalues(speed: f64) -> Vec<Complex<f64>> {
     let run = simulation
         .run(start, 0.0..STEP * SAMPLES as f64)
         .expect("rides");
-    assert!(run.verify(1).expect("recorded").holds());
+    certified("", &run);
     let mut sampler = run.sampler();
     let mut column = |k: usize| {
         let now = sampler.at(STEP * k as f64).expect("on the way");

@@ -1,7 +1,7 @@
 //! A billiard ball that stays at the cushion which it has hit: it lies there without load, and turns about the vertical.
 
 use lagrange_core::prelude::*;
-use lagrange_tests::{Random, agree, event, first_start, run_by, words};
+use lagrange_tests::{Random, agree, certified, event, first_start, run_by, words};
 
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
@@ -52,14 +52,14 @@ fn an_unloaded_cushion_does_nothing() {
             mass: 0.17,
             radius: 0.0286,
             gravity: 9.81,
-            mu: random.between(0.04, 0.3),
+            mu: random.between(0.04, 0.2),
             nu: 1.0,
             way: 0.3,
             speed: [random.between(2.0, 3.0), random.between(-0.5, 0.5)],
             // Backspin, so that the cushion does not throw it up.
             turn: [
                 random.between(-50.0, 50.0),
-                random.between(-50.0, -5.0),
+                random.between(-60.0, -35.0),
                 random.between(-50.0, 50.0),
             ],
         };
@@ -67,7 +67,7 @@ fn an_unloaded_cushion_does_nothing() {
             ("taylor", 1e-9),
             ("taylor", 1e-11),
             ("dop853", 1e-9),
-            ("radau5", 1e-8),
+            ("verner98", 1e-11),
         ] {
             let motion = run_by(&ball, how, first_start(&ball), 4.0);
             let name = format!("{how:?} {ball:?}");
@@ -92,8 +92,7 @@ fn an_unloaded_cushion_does_nothing() {
                 1e3 * how.1,
             );
             agree(&name, turning(end)[2], about, 1e4 * how.1);
-            let certificate = motion.verify(1).expect("a recorded run");
-            assert!(certificate.holds(), "{name}: {certificate}");
+            certified(&name, &motion);
             assert!(
                 motion.work().steps < 1000,
                 "{name}: {} steps",

@@ -4,7 +4,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::agree;
+use lagrange_tests::{agree, certified};
 
 const METHODS: [Method; 5] = [
     Method::Taylor,
@@ -80,7 +80,7 @@ fn a_stone_that_is_let_go_falls_and_lies() {
         let run = simulation
             .run(state(&[0.0, 0.0, 8.0], &[0.0; 3]), 0.0..3.0)
             .expect("falls");
-        assert!(run.verify(1).expect("recorded").holds(), "{method:?}");
+        certified(format!("{method:?}"), &run);
         let falling = run.sampler().at(1.0).expect("within").state;
         agree("height", falling.q[2], 8.0 - depth, 1e-9);
         agree("speed", falling.v[2], -speed, 1e-9);
@@ -101,7 +101,7 @@ fn a_stone_that_is_let_go_on_a_steep_slope_slips_at_once() {
         let run = simulation
             .run(state(&[0.0; 3], &[0.0; 3]), 0.0..2.0)
             .expect("slips");
-        assert!(run.verify(1).expect("recorded").holds(), "{method:?}");
+        certified(format!("{method:?}"), &run);
         agree("way", run.final_state().q[0], -way, 1e-9);
         agree("speed", run.final_state().v[0], -speed, 1e-9);
     }
@@ -114,7 +114,7 @@ fn a_stone_on_a_gentle_slope_stays() {
         .run(state(&[0.0; 3], &[0.0; 3]), 0.0..5.0)
         .expect("rests");
     assert_eq!(run.final_state().q.as_slice(), [0.0; 3]);
-    assert!(run.verify(1).expect("recorded").holds());
+    certified("", &run);
 }
 
 #[test]
@@ -136,7 +136,7 @@ fn a_dissipation_of_third_order_is_the_same_drag() {
         let run = simulation
             .run(state(&[0.0, 0.0], &[0.0, thrown]), 0.0..to_top + 1.0)
             .expect("rises and falls");
-        assert!(run.verify(1).expect("recorded").holds(), "{method:?}");
+        certified(format!("{method:?}"), &run);
         agree("height", run.final_state().q[1], top - depth, 1e-8);
         agree("speed", run.final_state().v[1], -speed, 1e-8);
         let fall = simulation

@@ -3,7 +3,7 @@
 use super::state;
 use lagrange_core::prelude::*;
 use lagrange_tests::fuzz::METHODS;
-use lagrange_tests::{agree, run_by, words};
+use lagrange_tests::{agree, certified, run_by, words};
 
 /// Two bodies on a spring, with a bumper that rubs.
 #[derive(Lagrangian, Clone, Debug)]
@@ -69,8 +69,7 @@ fn bodies_meet_where_they_would_at_home() {
                 "{method} {:?}",
                 words(&far)
             );
-            let certificate = far.verify(1).expect("a recorded run");
-            assert!(certificate.holds(), "{method} {tolerance:e}: {certificate}");
+            certified(format!("{method} {tolerance:e}"), &far);
         }
     }
 }
@@ -127,8 +126,7 @@ fn a_rope_in_orbit_becomes_taut() {
                 1.0,
                 100.0 * tolerance,
             );
-            let certificate = trajectory.verify(1).expect("a recorded run");
-            assert!(certificate.holds(), "{method} {tolerance:e}: {certificate}");
+            certified(format!("{method} {tolerance:e}"), &trajectory);
         }
     }
 }

@@ -2,7 +2,7 @@
 //! times faster than the slip itself falls, which bounds steps by stability; and each left an error that was a slip.
 
 use lagrange_core::prelude::*;
-use lagrange_tests::agree;
+use lagrange_tests::{agree, certified};
 
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
@@ -65,8 +65,7 @@ fn slips_of_the_size_of_errors_come_to_rest() {
                 let events = found.events().len();
                 assert!(events == 2 || !ends && events == 1, "{what}: {events}");
                 assert!(found.work().steps < 20_000, "{what}: {:?}", found.work());
-                let certificate = found.verify(1).expect("a certificate");
-                assert!(certificate.holds(), "{what}: {certificate}");
+                certified(&what, &found);
             }
         }
     }

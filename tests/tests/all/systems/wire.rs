@@ -3,7 +3,7 @@
 use super::{PI, state};
 use lagrange_core::prelude::*;
 use lagrange_tests::fuzz::METHODS;
-use lagrange_tests::{agree, all_agree, closure, event, root, run, run_by, words};
+use lagrange_tests::{agree, all_agree, certified, closure, event, root, run, run_by, words};
 
 /// A bead on a circle in a plane that is inclined by `slope`, x downhill.
 #[derive(Lagrangian, Clone, Debug)]
@@ -419,8 +419,7 @@ fn what_a_wire_shares_with_a_wall_stays_within_its_friction() {
                         agree(&asked, time, leaves, 20.0 * tolerance);
                     }
                 }
-                let certificate = motion.verify(1).expect("a certificate");
-                assert!(certificate.holds(), "{asked}: {certificate}");
+                certified(&asked, &motion);
                 let mut sampler = motion.sampler();
                 for t in (0..16).map(|k| 0.1 * f64::from(k)).filter(|t| *t < until) {
                     let now = sampler.at(t).expect("within the run");

@@ -5,7 +5,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::agree;
+use lagrange_tests::{agree, certified};
 
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
@@ -88,8 +88,7 @@ fn the_woodpecker_comes_back_to_its_cycle() {
             .project_start(true)
             .run(Woodpecker::published(), 0.0..20.0)
             .expect("pecks on");
-        let certificate = run.verify(1).expect("recorded");
-        assert!(certificate.holds(), "{certificate}");
+        certified("", &run);
         let pecks: Vec<_> = run
             .events()
             .iter()
@@ -173,8 +172,7 @@ fn what_leaves_one_surface_may_not_end_below_another() {
         let start = state(&q, &[0.0, speed, 0.0]);
         let simulation = Simulation::new(&sunk).tolerance(1e-10).project_start(true);
         let run = simulation.run(start, 0.0..1.0).expect("moved");
-        let certificate = run.verify(1).expect("recorded");
-        assert!(certificate.holds(), "{certificate}");
+        certified("", &run);
         let start = run.sampler().at(0.0).expect("the start");
         let [x, y, phi] = [0, 1, 2].map(|j| start.state.q[j]);
         let gaps = [0.3, -0.3].map(|arm| y + arm * phi.sin() - 0.2 * phi.cos());
