@@ -56,10 +56,8 @@ impl Lagrangian {
         let seeds: Vec<Seed> = seeds
             .chain(potential.map(|(_, &value)| term(value, -1.0)))
             .collect();
-        let count = d.parameters.len();
-        let parameters: Vec<f64> = (0..count).map(|i| system.parameter(i).value()).collect();
         let values = seeds.iter().map(|seed| seed.value);
-        let evaluator = Evaluator::new(declaration, &parameters, values);
+        let evaluator = Evaluator::new(declaration, &system.parameters(), values);
         let guards = evaluator.guards();
         (!guards.is_empty()).then_some(Self {
             evaluator,

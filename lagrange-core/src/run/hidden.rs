@@ -79,7 +79,7 @@ impl Hidden {
         }
         let wanted = arguments.iter().map(|&(argument, _)| argument);
         let wanted = wanted.chain(values.iter().copied());
-        let evaluator = Evaluator::new(declaration, &parameters(system), wanted);
+        let evaluator = Evaluator::new(declaration, &system.parameters(), wanted);
         let follows = |value: usize| evaluator.moves(value) && !evaluator.is_of_forces(value);
         arguments.retain(|&(argument, _)| follows(argument));
         values.retain(|&value| follows(value));
@@ -187,7 +187,7 @@ pub(super) fn overflow<T: Scalar>(
 ) -> bool {
     let (d, declaration) = (system.description(), system.declaration());
     let growing = exponentials(declaration, acting(d, declaration, effects));
-    let mut evaluator = Evaluator::new(declaration, &parameters(system), growing.iter().copied());
+    let mut evaluator = Evaluator::new(declaration, &system.parameters(), growing.iter().copied());
     let numbers = |list: &[T]| -> Vec<f64> { list.iter().map(|x| x.value()).collect() };
     evaluator.evaluate(Inputs {
         time: time.value(),
@@ -202,11 +202,6 @@ pub(super) fn overflow<T: Scalar>(
         let follows = evaluator.moves(value) && !evaluator.is_of_forces(value);
         follows && evaluator.value(value).powi(RAISED).is_infinite()
     })
-}
-
-fn parameters<T: Scalar>(system: &Erased<T>) -> Vec<f64> {
-    let count = system.description().parameters.len();
-    (0..count).map(|i| system.parameter(i).value()).collect()
 }
 
 /// Least |z| of the cubic with these values and changes at both ends of a piece.

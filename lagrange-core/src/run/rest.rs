@@ -172,14 +172,19 @@ impl<T: Scalar> Run<T> {
 
     /// How far the directions of slips may be off, because velocities are; the values are those of the state.
     pub(super) fn error_of_directions(&mut self) -> f64 {
+        self.largest_of_slips(Self::error_of_direction)
+    }
+
+    /// The largest share, up to 1, by which a slip of two components along itself is off.
+    fn largest_of_slips(&mut self, share: impl Fn(&Self, usize) -> f64) -> f64 {
         let frictions = 0..self.description().frictions.len();
         if !frictions.clone().any(|f| self.turns(f)) {
             return 0.0;
         }
         self.dynamics.complete_outputs();
         let turning = frictions.filter(|&f| self.turns(f));
-        let errors = turning.map(|f| self.error_of_direction(f));
-        errors.fold(0.0, f64::max).min(1.0)
+        let shares = turning.map(|f| share(self, f));
+        shares.fold(0.0, f64::max).min(1.0)
     }
 
     /// The error of a slip of two components, at the state of the last tape, from those of the velocities, beside the slip.
@@ -329,18 +334,11 @@ impl<T: Scalar> Run<T> {
     /// How far forces are off, relative, because the directions of slips are: what rounding leaves of one that has nearly vanished. The
     /// values are those of the state in `scratch`.
     pub(super) fn blur_of_directions(&mut self) -> f64 {
-        let frictions = 0..self.description().frictions.len();
-        if !frictions.clone().any(|f| self.turns(f)) {
-            return 0.0;
-        }
-        self.dynamics.complete_outputs();
-        let turning = frictions.filter(|&f| self.turns(f));
-        let blurs = turning.map(|f| {
-            let slip = self.dynamics.slip(f).map(|s| s.value());
-            let size = self.dynamics.slip_size(f, &self.stepper.scratch.v);
+        self.largest_of_slips(|run, f| {
+            let slip = run.dynamics.slip(f).map(|s| s.value());
+            let size = run.dynamics.slip_size(f, &run.stepper.scratch.v);
             BLUR * ROUNDING * size / slip[0].hypot(slip[1])
-        });
-        blurs.fold(0.0, f64::max).min(1.0)
+        })
     }
 
     /// The state at rest exactly, and the forces just before, in the directions that the slips had.

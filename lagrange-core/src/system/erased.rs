@@ -25,6 +25,12 @@ pub(crate) trait ErasedSystem<T: Scalar>: Send + Sync {
     /// Parameter `index` of the description.
     fn parameter(&self, index: usize) -> T;
 
+    /// The values of all parameters.
+    fn parameters(&self) -> Vec<f64> {
+        let count = self.description().parameters.len();
+        (0..count).map(|i| self.parameter(i).value()).collect()
+    }
+
     /// The same system with another value of parameter `index`.
     fn with_parameter(&self, index: usize, value: T) -> Erased<T>;
 
