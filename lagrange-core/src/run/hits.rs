@@ -300,6 +300,8 @@ impl<T: Scalar> Run<T> {
     pub(super) fn marks_until(&self, end: f64, list: &mut Vec<(usize, f64)>) {
         let d = self.description();
         let resolution = self.resolution_of_time();
+        // A mark at the surface of a contact is passed where the contact is hit, whichever of both roots rounding puts first.
+        let last = end + resolution;
         let curves = &self.locator.polynomials;
         list.clear();
         for &i in &curves.marks {
@@ -310,19 +312,22 @@ impl<T: Scalar> Run<T> {
                 roots(curve, &mut all);
                 let below = self.locator.mark_below[i][0];
                 let comes_back = self.comes_back(i, 0, curve, resolution);
-                if !comes_back && ((below && curve[0] > 0.0) || (!below && curve[0] < 0.0)) {
+                let known = self.known_zero(i, 0, curve, resolution);
+                let seen = comes_back || known.is_some();
+                if !seen && ((below && curve[0] > 0.0) || (!below && curve[0] < 0.0)) {
                     list.push((i, 0.0));
                 }
                 let roots = all.iter().skip(usize::from(comes_back));
+                let roots = roots.skip_while(|root| known.is_some_and(|until| root.s <= until));
                 let places = roots.map(|root| self.place(Guard::Mark(i, 0), root).0);
                 list.extend(
                     places
-                        .filter(|s| *s <= end && holds(watch, &self.now.mode))
-                        .map(|s| (i, s)),
+                        .filter(|s| *s <= last && holds(watch, &self.now.mode))
+                        .map(|s| (i, s.min(end))),
                 );
             } else {
                 let below = &self.locator.mark_below[i];
-                let first = self.becomes_true(watch, end, |k| {
+                let first = self.becomes_true(watch, last, |k| {
                     let curve = curves.mark_term(i, k);
                     Term {
                         guard: Guard::Mark(i, k),
@@ -331,7 +336,7 @@ impl<T: Scalar> Run<T> {
                         comes_back: self.comes_back(i, k, curve, resolution),
                     }
                 });
-                list.extend(first.map(|s| (i, s)));
+                list.extend(first.map(|s| (i, s.min(end))));
             }
         }
         list.sort_by(|a, b| a.1.total_cmp(&b.1));
@@ -396,12 +401,30 @@ impl<T: Scalar> Run<T> {
     /// Whether a term of a mark crosses zero once more only because rounding has put it back to the side from which it has come, or,
     /// by no more than the tolerance, the projection onto the constraints after the step in which it passed.
     fn comes_back(&self, mark: usize, term: usize, curve: &[f64], resolution: f64) -> bool {
+        let within = self.within(mark, term, resolution);
+        comes_back_at_once(curve, self.locator.mark_below[mark][term], within)
+    }
+
+    /// The part of the step up to which a zero of a term of a mark is the one with which the step begins, if it does and that is known: the run
+    /// starts there, or it has been logged and an impact has turned the term back.
+    fn known_zero(&self, mark: usize, term: usize, curve: &[f64], resolution: f64) -> Option<f64> {
+        let [start, rate, ..] = *curve else {
+            return None;
+        };
+        let starts = self.recorder.trajectory.segments.is_empty();
+        let logged = self.locator.mark_passed[mark] == Some(term);
+        let within = self.within(mark, term, resolution);
+        let known = (starts || logged) && is_zero(curve, 0.0, start, within);
+        known.then(|| resolution.max(2.0 * (start / rate).abs()))
+    }
+
+    /// The part of the step within which a zero of a term of a mark is that of the end of the last step.
+    fn within(&self, mark: usize, term: usize, resolution: f64) -> f64 {
         let step = &self.stepper.step;
-        let within = match self.locator.mark_passed[mark] == Some(term) {
+        match self.locator.mark_passed[mark] == Some(term) {
             true => self.settings.tolerance * (step.t.value() / step.h.value()).abs().max(1.0),
             false => resolution,
-        };
-        comes_back_at_once(curve, self.locator.mark_below[mark][term], within)
+        }
     }
 
     /// The part of the step to which rounding resolves the time of an event.

@@ -23,9 +23,12 @@ pub(super) struct Gathering<T> {
     bilateral: Vec<usize>,
     /// Dense Jacobian of `rows`, then of `bilateral`.
     jacobian: Vec<T>,
-    /// [M −Bᵀ; B 0], and the same scaled.
+    /// [M −Bᵀ; B 0], scaled on both sides: inertias come to 1, and so do rows of B beside them, whatever units make of masses.
     matrix: Vec<T>,
-    scaled: Vec<T>,
+    /// By what.
+    scale: Vec<f64>,
+    /// The matrix while it is factored.
+    factored: Vec<T>,
     factors: Equilibrated<T>,
     rest: Vec<T>,
     /// (Δv, Λ of `bilateral`) of a unit impulse in every row.
@@ -106,8 +109,15 @@ impl<T: Scalar> Gathering<T> {
                 self.matrix[j * size + n + k] = -a;
             }
         }
-        self.scaled.clone_from(&self.matrix);
-        self.factors.factor(&mut self.scaled, size);
+        self.find_scale(n, count);
+        let rows = self.matrix.chunks_exact_mut(size.max(1));
+        for (row, &own) in rows.zip(&self.scale) {
+            for (x, &other) in row.iter_mut().zip(&self.scale) {
+                *x *= T::from_f64(own * other);
+            }
+        }
+        self.factored.clone_from(&self.matrix);
+        self.factors.factor(&mut self.factored, size);
         let mut answers = core::mem::take(&mut self.answers);
         answers.clear();
         answers.resize(count * size, T::zero());
@@ -120,11 +130,48 @@ impl<T: Scalar> Gathering<T> {
         solved
     }
 
+    /// Finds the scale of coordinates and of bilateral rows, which follow `count` others in the Jacobian.
+    fn find_scale(&mut self, n: usize, count: usize) {
+        let bilateral = self.bilateral.len();
+        let size = n + bilateral;
+        let inverse = |size: f64| if size > 0.0 { size.recip() } else { 1.0 };
+        let b = |k: usize, j: usize| self.jacobian[(count + k) * n + j].value();
+        let inertia = |j: usize| self.matrix[j * size + j].value().abs();
+        let scale = &mut self.scale;
+        scale.clear();
+        scale.extend(
+            (0..n)
+                .map(|j| inertia(j).sqrt())
+                .map(|root| match root > 0.0 {
+                    true => root.recip(),
+                    false => 0.0,
+                }),
+        );
+        let length = |scale: &[f64], k: usize| {
+            let parts = (0..n).map(|j| (b(k, j) * scale[j]).powi(2));
+            parts.sum::<f64>().sqrt()
+        };
+        // What has no inertia of its own is measured by what constraints tie it to.
+        let lengths: Vec<f64> = (0..bilateral).map(|k| length(scale, k)).collect();
+        for j in (0..n).filter(|&j| inertia(j) == 0.0) {
+            let ties = (0..bilateral).map(|k| b(k, j).abs() * inverse(lengths[k]));
+            scale[j] = inverse(ties.fold(0.0, f64::max));
+        }
+        let rows = (0..bilateral).map(|k| inverse(length(scale, k)));
+        let rows: Vec<f64> = rows.collect();
+        scale.extend(rows);
+    }
+
     /// Replaces a right-hand side by the solution, with one step of refinement: each equation then holds to rounding of its own terms (Skeel 1980,
     /// Mathematics of Computation 35, 817). False if it has none.
     fn solve(&mut self, b: &mut [T]) -> bool {
         let size = b.len();
+        let scaled = |b: &mut [T], scale: &[f64]| {
+            let pairs = b.iter_mut().zip(scale);
+            pairs.for_each(|(b, &scale)| *b *= T::from_f64(scale));
+        };
         let mut rest = core::mem::take(&mut self.rest);
+        scaled(b, &self.scale);
         rest.clear();
         rest.extend_from_slice(b);
         let solved = self.factors.solve(b);
@@ -137,6 +184,7 @@ impl<T: Scalar> Gathering<T> {
             }
         }
         self.rest = rest;
+        scaled(b, &self.scale);
         solved
     }
 

@@ -126,7 +126,7 @@ table! {
     KineticAtRest "E515" "{0}" "a kinetic energy is made of `der(…)`; an energy of position belongs in `potential`, with the opposite sign";
     Bearing "E516" "{0}" "{1}";
 
-    NoInertia "E601" "the coordinate `{0}` has no inertia" "no kinetic energy contains `der({0})`, and no constraint ties it: add its kinetic energy or remove it";
+    NoInertia "E601" "the coordinate `{0}` has no inertia" "no kinetic energy contains `der({0})`, and no constraint ties it: add its kinetic energy, tie it with `constraint(name: der({0}) == …)`, or remove it";
     EquationCount "E602" "{0} equations for {1} unknowns" "{2}";
     Redundant "E603" "`{0}` says nothing that {1} does not say already" "take one of them away: their forces cannot be told apart";
     Contradiction "E604" "`{0}` cannot hold together with {1}" "they restrict the same motion in two ways: take one away";

@@ -49,6 +49,10 @@ pub(super) fn leftover(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<()
                 "conditions are joined by `and`; alternatives are several `stop` or `mark` items";
             sink.report(Code::Operator, cursor.here(), &[word, &hint]);
         }
+        (TokenTree::Ident(word), _) if word == "and" => {
+            let hint = "one condition stands here: instead of `if(a and b, x, y)` write `if(a, if(b, x, y), y)`";
+            sink.report(Code::Operator, cursor.here(), &[word, &hint]);
+        }
         (TokenTree::Ident(word), _) if word == "as" => {
             let hint = "numbers have no types: leave it away";
             sink.report(Code::RustNotation, cursor.here(), &[word, &hint]);

@@ -241,6 +241,8 @@ fn mistakes_point_at_their_token() {
         ("coordinates = x", "2:13 E001"),
         ("kinetic = \"text\"", "2:11 E021"),
         ("kinetic = 1 % 2", "2:13 E024"),
+        ("kinetic = if(x >= 1 and y >= 1, x, y)", "2:21 E024"),
+        ("contact(a: x >= y, at (x, y))", "2:20 E016"),
     ];
     mistakes_are_at(&wrong, |items| {
         read(&format!("#[lagrange(\n{items})] struct S {{}}")).map(|_| ())

@@ -337,6 +337,10 @@ pub(super) fn key(
         let meant = meant(&OTHERWISE, &key.text).filter(|known| keys.contains(known));
         let hint = match meant.or_else(|| nearest(&key.text, keys.iter().copied())) {
             _ if key.text == "poisson" => "write `restitution = poisson(e)`".to_string(),
+            _ if key.text == "at" => {
+                "it stands right behind what it belongs to, without a comma: `y >= 0 at (x, y)`"
+                    .to_string()
+            }
             Some(known) => format!("did you mean `{known}`?"),
             None => format!("its parts are {}", keys.join(", ")),
         };
