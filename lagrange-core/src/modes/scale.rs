@@ -85,19 +85,23 @@ impl Sizes {
                 sizes.fold(0.0, f64::max)
             }
             Guard::StickUpper(f) | Guard::StickLower(f) => self.limit(f, dynamics),
-            Guard::StickCone(f) => {
-                let friction = &d.frictions[f];
-                let rows = friction.row..friction.row + friction.components;
-                let values = rows.map(|row| dynamics.force(row).value());
-                let limit = exact::limit(f, dynamics.mode(), dynamics).value();
-                let part = 1.0 / guard::cone_unit(values.chain([limit]));
-                (part * self.limit(f, dynamics)).powi(2)
-            }
+            Guard::StickCone(f) => (cone(f, dynamics).0 * self.limit(f, dynamics)).powi(2),
             Guard::NormalForceSign(f) => self.normal(f, dynamics),
             Guard::Region(_) | Guard::Branch(_) | Guard::Stop(..) | Guard::Mark(..) => 0.0,
             // It is relative already.
             Guard::Composite(_) => 1.0,
         }
+    }
+
+    /// The value of a guard as a share of what makes it. That of a cone is a difference of squares, whose terms are as exact as the forces are: a
+    /// force is off by its own share.
+    pub fn share<T: Scalar>(&self, guard: Guard, value: f64, dynamics: &Dynamics<T>) -> f64 {
+        let size = self.of(guard, dynamics);
+        let size = match guard {
+            Guard::StickCone(f) => size.sqrt() * cone(f, dynamics).1,
+            _ => size,
+        };
+        value.abs() / size.max(f64::MIN_POSITIVE)
     }
 
     /// Size of the accelerations along a row.
@@ -161,6 +165,17 @@ impl Sizes {
         let force = rows.map(|row| self.row(row, dynamics).force);
         force.fold(0.0, f64::max) + self.friction(f, friction.static_coefficient, dynamics)
     }
+}
+
+/// The unit of the cone of friction `f` as a factor, and in it the sum of the force and of its limit.
+fn cone<T: Scalar>(f: usize, dynamics: &Dynamics<T>) -> (f64, f64) {
+    let friction = &dynamics.description().frictions[f];
+    let rows = friction.row..friction.row + friction.components;
+    let values = rows.map(|row| dynamics.force(row).value());
+    let limit = exact::limit(f, dynamics.mode(), dynamics).value();
+    let unit = 1.0 / guard::cone_unit(values.clone().chain([limit]));
+    let force = values.fold(0.0, f64::hypot);
+    (unit, unit * (force + limit.abs()))
 }
 
 /// Sizes along one row.

@@ -305,8 +305,8 @@ impl<T: Scalar> Decider<T> {
         }
         let reading = Reading::Values(dynamics);
         let relative = |&guard: &Guard| {
-            let size = self.sizes.of(guard, dynamics);
-            guard::value(guard, mode, &reading).abs() / size.max(f64::MIN_POSITIVE)
+            let value = guard::value(guard, mode, &reading);
+            self.sizes.share(guard, value, dynamics)
         };
         forces.map(relative).fold(0.0, f64::max)
     }
