@@ -10,6 +10,7 @@ use crate::arithmetic::{Scalar, epsilon};
 use crate::events::{Direction, RootList, deflate, first_root, roots};
 use crate::integrate::{polynomial_derivative as slope, polynomial_value as value};
 use crate::mode::{FrictionMode, Mode};
+use crate::modes::composite::CompositeGuard;
 use crate::modes::guard::{Guard, LENGTH};
 use crate::settings::Settings;
 use crate::system::{Condition, Description, Watch};
@@ -49,6 +50,8 @@ pub(super) struct Locator<T> {
     /// Falling guards found in the present step: (guard, part of the step, half width).
     falls: Vec<(Guard, f64, f64)>,
     pub(super) fallen: Vec<Guard>,
+    /// Composite guards that seemed to fall in the present step where forces keep all bounds.
+    pub(super) refuted: Vec<CompositeGuard>,
     /// Slips of two components that come to rest with it.
     pub(super) rests: Vec<Rest>,
     /// The mode with those at rest.
@@ -78,6 +81,7 @@ impl<T: Scalar> Locator<T> {
             blur: 0.0,
             falls: Vec::new(),
             fallen: Vec::new(),
+            refuted: Vec::new(),
             rests: Vec::new(),
             resting: mode.clone(),
             earlier: vec![T::default(); d.coordinates.len()],

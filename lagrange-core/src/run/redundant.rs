@@ -72,11 +72,15 @@ impl<T: Scalar> Run<T> {
         if *corrections == MOST_CORRECTIONS {
             return false;
         }
+        if *corrections == 0 {
+            self.locator.refuted.clear();
+        }
         let critical = self.switcher.redundant.critical(BORDER);
         let value = critical
             .as_ref()
             .map(|composite| self.joint_value(composite));
-        let mut again = self.switcher.redundant.has_open() && self.finds_joints_within(looked);
+        let within = looked > 0.0 && self.switcher.redundant.has_open();
+        let mut again = within && self.finds_joints_within(looked);
         let fallen = self
             .locator
             .fallen
@@ -96,7 +100,7 @@ impl<T: Scalar> Run<T> {
                 again |= value.abs() > ROOT;
             }
             (Some(k), ..) => {
-                composites.remove(k);
+                self.locator.refuted.push(composites.remove(k));
                 again = true;
             }
             _ => {}
@@ -106,6 +110,18 @@ impl<T: Scalar> Run<T> {
             self.list_guards();
         }
         again
+    }
+
+    /// The same where composite guards are below zero as the step begins: their weights may be those of a state that the motion has left.
+    pub(super) fn corrects_composites_at_start(
+        &mut self,
+        hit: &Hit,
+        corrections: &mut usize,
+    ) -> bool {
+        let joint = |guard: &Guard| matches!(guard, Guard::Composite(_));
+        self.locator.fallen.iter().any(joint)
+            && self.evaluate_end(0.0).is_ok()
+            && self.corrects_composites(hit, 0.0, corrections)
     }
 
     /// Whether nothing has fallen but what allowed forces of constraints with one sign, where the motion is now, and others with another sign are
@@ -145,8 +161,13 @@ impl<T: Scalar> Run<T> {
             let mut known = self.locator.polynomials.composites.iter();
             match known.position(|known| known.is_like(&composite)) {
                 None => {
-                    self.locator.polynomials.composites.push(composite);
-                    found = true;
+                    // Where directions of friction turn, what is open cancels at one instant only: the root of such a guard may be none.
+                    let mut refuted = self.locator.refuted.iter();
+                    let refuted = refuted.any(|refuted| refuted.is_like(&composite));
+                    if !refuted || self.joint_value(&composite) < -ROOT {
+                        self.locator.polynomials.composites.push(composite);
+                        found = true;
+                    }
                 }
                 Some(k) => {
                     let falls = self.joint_value(&composite) < -ROOT;

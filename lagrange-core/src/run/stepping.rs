@@ -179,6 +179,9 @@ impl<T: Scalar> Run<T> {
             };
             let end = hit.end();
             if end == 0.0 {
+                if self.corrects_composites_at_start(&hit, &mut corrections) {
+                    continue;
+                }
                 return match hit {
                     // It would be found again.
                     Hit::Turned(_) => Err(self.step_too_small(h)),
