@@ -47,7 +47,7 @@ impl<T: Scalar> Run<T> {
     }
 
     /// The guards that decide.
-    fn list_guards(&mut self) {
+    pub(super) fn list_guards(&mut self) {
         let watched = self.switcher.table.of(&self.dynamics);
         let redundant = &self.switcher.redundant;
         let single = watched.guards.iter().copied();

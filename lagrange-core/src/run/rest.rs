@@ -410,6 +410,9 @@ impl<T: Scalar> Run<T> {
         self.recorder.trajectory.enter(&self.now.mode);
         (self.now.valued, self.now.series) = (false, Progress::None);
         self.hold_guards();
+        if self.switcher.redundant.has_open() {
+            self.list_guards();
+        }
     }
 
     /// Whether the slip of a friction with two components vanishes at the start of a step of length `h`, or may in it:
