@@ -69,7 +69,12 @@ impl<T: Scalar> Run<T> {
             return false;
         }
         self.look_at_redundant_forces();
-        if *corrections == MOST_CORRECTIONS {
+        // A step that ends with one too many gets somewhere at least.
+        let most = match looked > 0.0 {
+            true => MOST_CORRECTIONS,
+            false => 2 * MOST_CORRECTIONS,
+        };
+        if *corrections >= most {
             return false;
         }
         if *corrections == 0 {
@@ -124,8 +129,9 @@ impl<T: Scalar> Run<T> {
             && self.corrects_composites(hit, 0.0, corrections)
     }
 
-    /// Whether nothing has fallen but what allowed forces of constraints with one sign, where the motion is now, and others with another sign are
-    /// allowed: nothing changes but how the load is shared, and the mode goes on.
+    /// Whether nothing has fallen but composite guards, and the mode goes on. Forces may keep all bounds where the motion is now, because the
+    /// weights of such a guard turn with directions of friction as fast as they are found anew. Or those of constraints kept them with one sign,
+    /// and others with another sign do: nothing changes but how the load is shared.
     ///
     /// # Errors
     /// The end of the step cannot be evaluated.
@@ -138,7 +144,10 @@ impl<T: Scalar> Run<T> {
             self.evaluate()?;
         }
         // What is nearer to its border than roots are may be what has just ended.
-        let turns = self.switcher.redundant.turn(&self.dynamics, ROOT);
+        let redundant = &mut self.switcher.redundant;
+        redundant.follow(&self.dynamics);
+        let keeps = redundant.has_open() && redundant.critical(ROOT).is_none();
+        let turns = keeps || redundant.turn(&self.dynamics, ROOT);
         if turns {
             self.locator.polynomials.composites.clear();
             self.list_guards();
