@@ -21,6 +21,7 @@ mod region;
 mod resolution;
 mod rest;
 mod samples;
+mod sides;
 mod singular;
 mod stepping;
 mod stiffness;
@@ -584,7 +585,7 @@ impl<T: Scalar> Run<T> {
     }
 
     /// Asks for the numbers that the guards of the mode read.
-    fn ask_for_guards(&mut self) {
+    pub(super) fn ask_for_guards(&mut self) {
         let watched = self.switcher.table.of(&self.dynamics);
         // The rank is read from the rows.
         if self.rank.watches() && !self.dynamics.gives_rows() {

@@ -32,7 +32,11 @@ pub(super) struct Switcher<T> {
     pub(super) status: ConstraintStatus,
     pub(super) collider: Collider<T>,
     /// Branches that what touches holds at their border.
-    held: HeldBranches<T>,
+    pub(super) held: HeldBranches<T>,
+    /// Guards that the mode watches,
+    pub(super) watched: Vec<Guard>,
+    /// and the conditions of branches before an impact.
+    pub(super) conditions: Vec<f64>,
     /// Contacts whose gap vanishes at an impact.
     pub(super) near: Vec<usize>,
     /// Per contact: its impacts so far.
@@ -60,6 +64,8 @@ impl<T: Scalar> Switcher<T> {
             status: ConstraintStatus::new(d),
             collider: Collider::default(),
             held: HeldBranches::default(),
+            watched: Vec::new(),
+            conditions: Vec::new(),
             near: Vec::with_capacity(contacts),
             impacts: vec![Impacts::default(); contacts],
             train: Train::default(),
@@ -231,12 +237,16 @@ impl<T: Scalar> Run<T> {
 
     /// The forces just before, and the impact if something is hit; whether one was.
     pub(super) fn meet(&mut self, facts: &mut SwitchFacts) -> Result<bool, Error> {
+        self.take_sides_not_watched();
         if !self.now.valued {
             self.evaluate()?;
         }
         self.remember_before();
         let arrives = facts.arriving.contains(&true);
         let hit = arrives && self.hit(facts)?;
+        if hit {
+            self.take_sides_after_impact(facts);
+        }
         let leaves_an_edge = |guard: &Guard| matches!(guard, Guard::Region(_));
         // A gap that has just begun to open may still be as good as closed, where something else changes at once.
         if arrives || self.locator.opened || facts.located.iter().any(leaves_an_edge) {
@@ -248,39 +258,6 @@ impl<T: Scalar> Run<T> {
         }
         self.balance_what_is_held(facts);
         Ok(hit)
-    }
-
-    /// Branches are at their border where everything that touches and rests holds them there: a contact that closes may not do so at the
-    /// root of their guard.
-    fn balance_what_is_held(&mut self, facts: &mut SwitchFacts) {
-        let d = self.description();
-        if d.branches.iter().all(|branch| branch.after_solve) {
-            return;
-        }
-        let mode = &mut self.switcher.scratch_mode;
-        mode.clone_from(&self.now.mode);
-        mode.contacts.copy_from_slice(&facts.touching);
-        for (f, friction) in d.frictions.iter().enumerate() {
-            let rests = facts.resting[f] && friction.normal.presses(|c| facts.touching[c]);
-            mode.frictions[f] = match rests {
-                true => FrictionMode::Stick,
-                false => FrictionMode::Inactive,
-            };
-        }
-        self.dynamics.set_mode(mode);
-        let here = self
-            .now
-            .context(self.stepper.order, self.settings.tolerance, facts);
-        let needs = &self.switcher.status.needs;
-        let held = &mut self.switcher.held;
-        held.look(&mut self.dynamics, needs, here.moment);
-        for (balanced, held) in facts.balanced.iter_mut().zip(held.held()) {
-            *balanced |= held;
-        }
-        facts.held.copy_from_slice(held.held());
-        facts.lying.copy_from_slice(held.of_positions());
-        self.dynamics.set_mode(&self.now.mode);
-        self.now.valued = false;
     }
 
     /// The impact of the contacts whose gaps close, if there is one.

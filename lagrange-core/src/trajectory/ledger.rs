@@ -296,9 +296,9 @@ fn jumps<T: Scalar>(
             }
             _ => continue,
         };
-        let mode = mode_of(&event.before);
-        let before = meter.energies(began, mode, from)?;
-        let after = meter.energies(event.time, mode, to)?;
+        // What an impact moves may be on another side of its conditions.
+        let before = meter.energies(began, mode_of(&event.before), from)?;
+        let after = meter.energies(event.time, mode_of(&event.after), to)?;
         let name = event.subject.name(d);
         let known = work
             .iter()

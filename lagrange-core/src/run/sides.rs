@@ -1,0 +1,131 @@
+//! On which side of their conditions piecewise expressions are at a switch, where no root says so.
+//!
+//! Conditions in the coefficients of a contact are not watched while it is open. Velocities that jump carry conditions along. And what touches
+//! may hold a condition at its border.
+
+use super::Run;
+use crate::arithmetic::Scalar;
+use crate::mode::FrictionMode;
+use crate::modes::facts::SwitchFacts;
+use crate::modes::guard::Guard;
+
+/// What is left of a condition after an impact is rounding, beside what it was or the largest speed.
+const ROUNDING: f64 = 1e-12;
+
+impl<T: Scalar> Run<T> {
+    /// Puts the branches on their sides that the mode does not watch.
+    pub(super) fn take_sides_not_watched(&mut self) {
+        let d = self.description();
+        if d.branches.iter().all(|branch| branch.after_solve) {
+            return;
+        }
+        self.dynamics.set_mode(&self.now.mode);
+        let mut watched = core::mem::take(&mut self.switcher.watched);
+        watched.clone_from(&self.switcher.table.of(&self.dynamics).guards);
+        let watches = |b: usize| watched.contains(&Guard::Branch(b));
+        self.take_sides(|b, guard| (!watches(b) && guard != 0.0).then_some(guard > 0.0));
+        self.switcher.watched = watched;
+    }
+
+    /// Puts branches on their sides that an impact has moved them to; what it has moved to their borders is balanced.
+    pub(super) fn take_sides_after_impact(&mut self, facts: &mut SwitchFacts) {
+        let d = self.description();
+        if d.branches.iter().all(|branch| branch.after_solve) {
+            return;
+        }
+        let v = core::mem::take(&mut self.now.state.v);
+        self.now.state.v.clone_from(&self.recorder.before.state.v);
+        self.tape_of_all();
+        let mut before = core::mem::take(&mut self.switcher.conditions);
+        before.clear();
+        before.extend((d.branches.iter()).map(|branch| match branch.after_solve {
+            true => 0.0,
+            false => self.dynamics.motion(branch.guard).value(),
+        }));
+        let speeds = v.iter().chain(&self.now.state.v);
+        let fastest = speeds.fold(0.0_f64, |fastest, v| fastest.max(v.value().abs()));
+        self.now.state.v = v;
+        self.take_sides(|b, guard| {
+            if guard == before[b] {
+                return None;
+            }
+            let vanishes = guard.abs() <= ROUNDING * before[b].abs().max(fastest);
+            facts.balanced[b] |= vanishes;
+            (!vanishes).then_some(guard > 0.0)
+        });
+        self.switcher.conditions = before;
+    }
+
+    /// Puts branches on the sides that follow from the values of their guards at the present state; that of one may depend on the side of another.
+    fn take_sides(&mut self, mut side: impl FnMut(usize, f64) -> Option<bool>) {
+        let d = self.description();
+        let mut moved = false;
+        for _ in 0..d.branches.len() {
+            self.tape_of_all();
+            let mut changes = false;
+            for (b, branch) in d.branches.iter().enumerate() {
+                if branch.after_solve {
+                    continue;
+                }
+                let guard = self.dynamics.motion(branch.guard).value();
+                if let Some(side) = side(b, guard)
+                    && side != self.now.mode.branch(b)
+                {
+                    self.now.mode.set_branch(b, side);
+                    changes = true;
+                }
+            }
+            if !changes {
+                break;
+            }
+            moved = true;
+        }
+        if moved {
+            self.recorder.trajectory.enter(&self.now.mode);
+        }
+        self.dynamics.set_mode(&self.now.mode);
+        self.ask_for_guards();
+        self.now.valued = false;
+    }
+
+    /// The numbers of everything that is declared, at the present state.
+    fn tape_of_all(&mut self) {
+        self.dynamics.set_mode(&self.now.mode);
+        self.dynamics.set_extra_needs(&self.switcher.status.needs);
+        let (q, v) = (&self.now.state.q, &self.now.state.v);
+        self.dynamics.tape(self.now.t, q, v);
+    }
+
+    /// Branches are at their border where everything that touches and rests holds them there: a contact that closes may not do so at the
+    /// root of their guard.
+    pub(super) fn balance_what_is_held(&mut self, facts: &mut SwitchFacts) {
+        let d = self.description();
+        if d.branches.iter().all(|branch| branch.after_solve) {
+            return;
+        }
+        let mode = &mut self.switcher.scratch_mode;
+        mode.clone_from(&self.now.mode);
+        mode.contacts.copy_from_slice(&facts.touching);
+        for (f, friction) in d.frictions.iter().enumerate() {
+            let rests = facts.resting[f] && friction.normal.presses(|c| facts.touching[c]);
+            mode.frictions[f] = match rests {
+                true => FrictionMode::Stick,
+                false => FrictionMode::Inactive,
+            };
+        }
+        self.dynamics.set_mode(mode);
+        let here = self
+            .now
+            .context(self.stepper.order, self.settings.tolerance, facts);
+        let needs = &self.switcher.status.needs;
+        let held = &mut self.switcher.held;
+        held.look(&mut self.dynamics, needs, here.moment);
+        for (balanced, held) in facts.balanced.iter_mut().zip(held.held()) {
+            *balanced |= held;
+        }
+        facts.held.copy_from_slice(held.held());
+        facts.lying.copy_from_slice(held.of_positions());
+        self.dynamics.set_mode(&self.now.mode);
+        self.now.valued = false;
+    }
+}
