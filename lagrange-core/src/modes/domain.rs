@@ -7,8 +7,8 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::effects::Item;
 use crate::error::Error;
-use crate::mode::FrictionMode;
-use crate::system::{Restitution, ValueRef};
+use crate::mode::{FrictionMode, Mode};
+use crate::system::{Description, Friction, Normal, Restitution, ValueRef};
 
 /// Coefficients given by different formulas may differ by this share and still be meant as equal.
 const ROUNDING: f64 = 1e-9;
@@ -25,14 +25,19 @@ const NOISE: f64 = 1e-12;
 /// Looks for numbers outside their domain in the state that `dynamics` holds, with the Jacobians and coefficients of all rows;
 /// `form` is memory.
 ///
-/// Coefficients that depend on the state count only where their friction acts.
+/// Coefficients and given forces that depend on the state count only where their friction acts in `mode`.
 ///
 /// # Errors
 /// [`Error::Domain`]: the first that is.
-pub fn check<T: Scalar>(dynamics: &Dynamics<T>, t: f64, form: &mut Vec<f64>) -> Result<(), Error> {
+pub fn check<T: Scalar>(
+    dynamics: &Dynamics<T>,
+    mode: &Mode,
+    t: f64,
+    form: &mut Vec<f64>,
+) -> Result<(), Error> {
     let d = dynamics.description();
     for f in 0..d.frictions.len() {
-        check_friction(dynamics, t, f)?;
+        check_friction(dynamics, mode, t, f)?;
     }
     for c in 0..d.contacts.len() {
         let (Restitution::Newton(place) | Restitution::Poisson(place)) = d.contacts[c].restitution;
@@ -88,46 +93,137 @@ pub fn check_restitution<T: Scalar>(dynamics: &Dynamics<T>, t: f64, c: usize) ->
     })
 }
 
-fn check_friction<T: Scalar>(dynamics: &Dynamics<T>, t: f64, f: usize) -> Result<(), Error> {
+/// Looks at the strength of the frictions that act, in the values that `dynamics` holds: below zero they would push.
+///
+/// # Errors
+/// [`Error::Domain`]: the first that is.
+pub fn check_acting<T: Scalar>(dynamics: &Dynamics<T>, t: f64) -> Result<(), Error> {
+    let d = dynamics.description();
+    for (f, friction) in d.frictions.iter().enumerate() {
+        let coefficient = match dynamics.mode().frictions[f] {
+            FrictionMode::Inactive => continue,
+            FrictionMode::Stick => static_friction(friction),
+            FrictionMode::Slip(_) => kinetic_friction(friction),
+        };
+        let numbers = normal_force(friction).into_iter().chain([coefficient]);
+        refuse_negative(
+            dynamics,
+            t,
+            f,
+            numbers.filter(|number| !is_fixed(number.place)),
+        )?;
+    }
+    Ok(())
+}
+
+/// Whether the motion may take the strength of a friction below zero.
+pub fn strengths_vary(d: &Description) -> bool {
+    let numbers = d.frictions.iter().flat_map(|friction| {
+        let coefficients = [static_friction(friction), kinetic_friction(friction)];
+        normal_force(friction).into_iter().chain(coefficients)
+    });
+    numbers.into_iter().any(|number| !is_fixed(number.place))
+}
+
+/// A number that a friction is made of.
+struct Number {
+    what: &'static str,
+    place: ValueRef,
+    /// The parameters in it.
+    parameters: &'static [usize],
+}
+
+fn static_friction(friction: &Friction) -> Number {
+    Number {
+        what: "static friction",
+        place: friction.static_coefficient,
+        parameters: friction.static_parameters,
+    }
+}
+
+fn kinetic_friction(friction: &Friction) -> Number {
+    Number {
+        what: "kinetic friction",
+        place: friction.kinetic_coefficient,
+        parameters: friction.kinetic_parameters,
+    }
+}
+
+fn normal_force(friction: &Friction) -> Option<Number> {
+    match friction.normal {
+        Normal::Given(place) => Some(Number {
+            what: "normal force",
+            place,
+            parameters: &[],
+        }),
+        _ => None,
+    }
+}
+
+/// A number that vanishes with the slip has the sign of its error where that has decayed.
+fn least(place: ValueRef) -> f64 {
+    if is_fixed(place) { 0.0 } else { -DECAYED }
+}
+
+fn refuse_negative<T: Scalar>(
+    dynamics: &Dynamics<T>,
+    t: f64,
+    f: usize,
+    numbers: impl Iterator<Item = Number>,
+) -> Result<(), Error> {
+    for Number {
+        what,
+        place,
+        parameters,
+    } in numbers
+    {
+        let value = dynamics.motion(place).value();
+        if value < least(place) {
+            return Err(Error::Domain {
+                time: t,
+                item: dynamics.description().frictions[f].name,
+                what,
+                value,
+                expected: match is_fixed(place) {
+                    true => "at least 0".to_owned(),
+                    false => "at least 0; where nothing presses write `max(…, 0)`".to_owned(),
+                },
+                fields: values_of(dynamics, parameters),
+            });
+        }
+    }
+    Ok(())
+}
+
+fn check_friction<T: Scalar>(
+    dynamics: &Dynamics<T>,
+    mode: &Mode,
+    t: f64,
+    f: usize,
+) -> Result<(), Error> {
     let d = dynamics.description();
     if !dynamics.effects().includes(d, Item::Friction(f)) {
         return Ok(());
     }
     let friction = &d.frictions[f];
-    let mode = dynamics.mode().frictions[f];
-    let number = |place| dynamics.motion(place).value();
-    let counts = |place| is_fixed(place) || mode != FrictionMode::Inactive;
-    let (at_rest, sliding) = (friction.static_coefficient, friction.kinetic_coefficient);
-    let (rests, slides) = (friction.static_parameters, friction.kinetic_parameters);
-    let refused = |what, value, expected, parameters| Error::Domain {
-        time: t,
-        item: friction.name,
-        what,
-        value,
-        expected,
-        fields: values_of(dynamics, parameters),
-    };
-    // A coefficient that vanishes with the slip has the sign of its error where that has decayed.
-    let least = |place| if is_fixed(place) { 0.0 } else { -DECAYED };
-    for (what, place, parameters) in [
-        ("static friction", at_rest, rests),
-        ("kinetic friction", sliding, slides),
-    ] {
-        if counts(place) && number(place) < least(place) {
-            let expected = "at least 0".to_owned();
-            return Err(refused(what, number(place), expected, parameters));
-        }
-    }
+    let mode = mode.frictions[f];
+    let numbers = [static_friction(friction), kinetic_friction(friction)];
+    let numbers = numbers.into_iter().chain(normal_force(friction));
+    let counts = |number: &Number| is_fixed(number.place) || mode != FrictionMode::Inactive;
+    refuse_negative(dynamics, t, f, numbers.filter(counts))?;
     // Where the coefficients depend on the slip it is those at rest that must agree.
+    let (at_rest, sliding) = (friction.static_coefficient, friction.kinetic_coefficient);
+    let [limit, value] = [at_rest, sliding].map(|place| dynamics.motion(place).value());
     let comparable = is_fixed(at_rest) && is_fixed(sliding) || mode == FrictionMode::Stick;
-    if comparable && number(sliding) > (1.0 + ROUNDING) * number(at_rest) - least(sliding) {
-        let expected = format!("at most that of static friction, {}", number(at_rest));
-        return Err(refused(
-            "kinetic friction",
-            number(sliding),
-            expected,
-            slides,
-        ));
+    if comparable && value > (1.0 + ROUNDING) * limit - least(sliding) {
+        return Err(Error::Domain {
+            time: t,
+            item: friction.name,
+            what: "kinetic friction",
+            value,
+            expected: format!("at most that of static friction, {limit}"),
+            fields: values_of(dynamics, friction.kinetic_parameters),
+        });
     }
     Ok(())
 }

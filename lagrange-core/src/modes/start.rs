@@ -29,7 +29,7 @@ pub fn begin<T: Scalar>(
 ) -> Result<(), Error> {
     domain::check_parameters(dynamics, t.value())?;
     status.look(dynamics, t, state, tolerance);
-    domain::check(dynamics, t.value(), &mut status.form)?;
+    domain::check(dynamics, &status.mode, t.value(), &mut status.form)?;
     if project {
         leave_surfaces(dynamics, t, state, tolerance, status)?;
     } else {

@@ -12,6 +12,9 @@ const LOST: f64 = 0.1;
 /// If it changes velocities over the step by more than this, relative to the largest or 1.
 const SHOWS: f64 = 1e-3;
 
+/// Halvings of a step.
+const BISECTIONS: usize = 50;
+
 /// Products of three numbers beyond this size, or its inverse, are beyond all numbers.
 const LARGEST: f64 = 1e102;
 
@@ -63,10 +66,36 @@ impl<T: Scalar> Run<T> {
         self.evaluate_all_rows().ok()?;
         domain::check(
             &self.dynamics,
+            &self.now.mode,
             self.now.t.value(),
             &mut self.switcher.status.form,
         )
         .err()
+    }
+
+    /// Where a friction begins to push within the step up to part `end` of it, whose values `dynamics` holds, because its strength follows from
+    /// the state and falls below zero; and the error.
+    pub(super) fn friction_that_pushes(&mut self, end: f64) -> Option<(f64, Error)> {
+        if !self.strengths_vary || end == 0.0 || !self.locator.rests.is_empty() {
+            return None;
+        }
+        let check = |run: &Self, s: f64| {
+            let time = run.stepper.step.time(T::from_f64(s)).value();
+            domain::check_acting(&run.dynamics, time).err()
+        };
+        let (mut good, mut bad) = (0.0, (end, check(self, end)?));
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (good + bad.0);
+            if self.evaluate_end(middle).is_err() {
+                break;
+            }
+            match check(self, middle) {
+                Some(error) => bad = (middle, error),
+                None => good = middle,
+            }
+        }
+        self.state_at_end(bad.0);
+        Some(bad)
     }
 
     /// Whether the method's steps are fixed, and the last one has lost the motion.

@@ -31,6 +31,7 @@ use crate::arithmetic::{Scalar, epsilon};
 use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
 use crate::error::Error;
 use crate::mode::Mode;
+use crate::modes::domain;
 use crate::modes::facts::{EvaluationPoint, SwitchContext, SwitchFacts};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
@@ -80,6 +81,8 @@ pub(crate) struct Run<T: Scalar> {
     stepper: Stepper<T>,
     /// Of what is declared, if there are any.
     hidden: Option<Hidden>,
+    /// Whether the strength of a friction follows from the state.
+    strengths_vary: bool,
     /// Whether accelerations may jump where no branch says so.
     may_jump: bool,
     /// Of what is declared, if a choice in it may change.
@@ -147,6 +150,7 @@ impl<T: Scalar> Run<T> {
             dynamics: Dynamics::of(system.clone(), &settings.effects),
             stepper: Stepper::new(settings, d, &state),
             hidden: Hidden::new(&system, &settings.effects),
+            strengths_vary: domain::strengths_vary(d),
             may_jump: hidden::may_jump(&system, &settings.effects),
             lagrangian: Lagrangian::new(&system, &settings.effects),
             rank: Rank::new(d, &settings.effects),
@@ -369,8 +373,12 @@ impl<T: Scalar> Run<T> {
         }
         let hit = self.accepted_step()?;
         self.check_resolution()?;
-        let end = hit.end();
-        let exact = self.exact_end(&hit);
+        let mut end = hit.end();
+        let mut exact = self.exact_end(&hit);
+        let refused = self.friction_that_pushes(end);
+        if let Some((first, _)) = &refused {
+            (end, exact) = (*first, T::from_f64(*first));
+        }
         if end > 0.0 {
             // The step left there the state at its end, evaluated.
             core::mem::swap(&mut self.now.state, &mut self.stepper.scratch);
@@ -394,6 +402,9 @@ impl<T: Scalar> Run<T> {
             let (before, now) = (self.stepper.step.t.value(), self.now.t.value());
             if now - before > 2.0 * epsilon::<T>() * now.abs() {
                 self.switcher.stuck.clear();
+            }
+            if let Some((_, error)) = refused {
+                return Err(error);
             }
             self.forget_zeros();
             let steps = self.recorder.trajectory.work.steps;
