@@ -246,7 +246,10 @@ impl Watches {
                 Kind::Stop(_) => value.high <= depth || value.low >= 0.0,
                 Kind::Mark(_) => value.low >= -depth || value.high <= depth,
             };
-            if rate.low >= 0.0 || rate.high <= 0.0 || is_plain(0.0) {
+            let turns = rate.low < 0.0 && rate.high > 0.0;
+            let may_pass = matches!(guard.kind, Kind::Gap(c) if !self.passed[c])
+                && guard.may_pass_edge(&self.ranges);
+            if !(turns || may_pass) || is_plain(0.0) {
                 continue;
             }
             let (_, term) = guard.value(&self.values);
@@ -369,6 +372,14 @@ impl Guard {
             }
             None => (value, rate),
         }
+    }
+
+    /// Whether a gap may vanish outside its region, and the motion come into the region beyond the surface.
+    fn may_pass_edge(&self, values: &Evaluator<Interval>) -> bool {
+        let contains_zero = |value: Interval| value.low < 0.0 && value.high > 0.0;
+        let region = self.region.map(|region| values.value(region));
+        region.is_some_and(contains_zero)
+            && (self.terms.iter()).any(|&gap| contains_zero(values.value(gap)))
     }
 
     /// How far a mark has gone through zero since it was looked at last without having been logged.
