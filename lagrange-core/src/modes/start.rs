@@ -7,6 +7,7 @@ use super::{
 use crate::arithmetic::{Scalar, epsilon};
 use crate::dynamics::{Dynamics, Residual, row_name};
 use crate::error::{Error, Level};
+use crate::integrate::Tolerance;
 use crate::state::{FixedComponents, State};
 
 /// Velocities are changed by no more than this, relative to their size, unless a start is to be moved.
@@ -23,7 +24,7 @@ pub fn begin<T: Scalar>(
     t: T,
     given: &State<T>,
     state: &mut State<T>,
-    tolerance: f64,
+    tolerance: Tolerance<'_>,
     project: bool,
     status: &mut ConstraintStatus,
 ) -> Result<(), Error> {
@@ -33,7 +34,7 @@ pub fn begin<T: Scalar>(
     if project {
         leave_surfaces(dynamics, t, state, tolerance, status)?;
     } else {
-        status.refuse_violations(dynamics.description(), tolerance)?;
+        status.refuse_violations(dynamics.description(), tolerance.strictness())?;
     }
     dynamics.set_mode(&status.mode);
     let (position, rate) = dynamics.residuals(t, &state.q, &state.v);
@@ -45,7 +46,13 @@ pub fn begin<T: Scalar>(
         .map_err(|e| Error::from_evaluation(e, t.value(), &status.mode, dynamics.description()))?;
     if moved {
         if !project {
-            refuse_other_positions(dynamics, position, &given.q, &state.q, tolerance)?;
+            refuse_other_positions(
+                dynamics,
+                position,
+                &given.q,
+                &state.q,
+                tolerance.strictness(),
+            )?;
         }
         status.look(dynamics, t, state, tolerance);
         dynamics.set_mode(&status.mode);
@@ -58,16 +65,16 @@ fn leave_surfaces<T: Scalar>(
     dynamics: &mut Dynamics<T>,
     t: T,
     state: &mut State<T>,
-    tolerance: f64,
+    tolerance: Tolerance<'_>,
     status: &mut ConstraintStatus,
 ) -> Result<(), Error> {
     let mut closed = vec![false; status.mode.contacts.len()];
     // Whoever leaves one surface may end below another.
     for _ in 0..closed.len() {
-        if status.penetrated(tolerance).next().is_none() {
+        if status.penetrated(tolerance.strictness()).next().is_none() {
             return Ok(());
         }
-        for contact in status.penetrated(tolerance) {
+        for contact in status.penetrated(tolerance.strictness()) {
             closed[contact] = true;
         }
         let mut mode = status.mode.clone();
@@ -80,7 +87,7 @@ fn leave_surfaces<T: Scalar>(
         state.v = velocities;
         status.look(dynamics, t, state, tolerance);
     }
-    status.refuse_penetration(dynamics.description(), tolerance)
+    status.refuse_penetration(dynamics.description(), tolerance.strictness())
 }
 
 /// A residual may be small because its row is, close to a position where constraints lose rank: to take it away there is to make another
@@ -128,7 +135,7 @@ fn refuse_other_positions<T: Scalar>(
 pub fn consistent<T: Scalar>(
     dynamics: &mut Dynamics<T>,
     time: f64,
-    tolerance: f64,
+    tolerance: Tolerance<'_>,
     reference: &State<T>,
     fixed: &FixedComponents<T>,
 ) -> Result<State<T>, Error> {

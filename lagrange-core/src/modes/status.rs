@@ -4,6 +4,7 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, OutputMask};
 use crate::effects::Item;
 use crate::error::{Error, Level};
+use crate::integrate::{Tolerance, least_size};
 use crate::mode::{FrictionMode, Mode, Sliding};
 use crate::modes::facts::SwitchFacts;
 use crate::modes::guard;
@@ -54,7 +55,7 @@ impl ConstraintStatus {
         dynamics: &mut Dynamics<T>,
         t: T,
         state: &State<T>,
-        tolerance: f64,
+        tolerance: Tolerance<'_>,
     ) {
         let d = dynamics.description();
         self.mode.clear();
@@ -69,7 +70,8 @@ impl ConstraintStatus {
         let view = View {
             dynamics,
             state,
-            near: slack(tolerance),
+            near: slack(tolerance.strictness()),
+            sizes: tolerance.sizes,
             extent: state.q.iter().fold(1.0_f64, |m, x| m.max(x.value().abs())),
         };
         let includes = |item: Item| dynamics.effects().includes(d, item);
@@ -130,7 +132,7 @@ impl ConstraintStatus {
     fn look_at_contact<T: Scalar>(&mut self, c: usize, view: &View<T>) {
         let d = view.dynamics.description();
         let contact = &d.contacts[c];
-        let View { near, extent, .. } = *view;
+        let (near, extent) = (view.near, view.extent(contact.row));
         let row = &d.rows[contact.row];
         let gap = view.number(row.position.unwrap_or(ValueRef::Zero));
         let region = contact.region.map_or(0.0, |place| view.number(place));
@@ -189,7 +191,7 @@ impl ConstraintStatus {
         if let Some(place) = row.position {
             let residual = view.number(place);
             self.residuals
-                .push((index, Level::Position, residual, view.extent));
+                .push((index, Level::Position, residual, view.extent(index)));
         }
         let rate = view.number(row.velocity);
         self.residuals
@@ -203,8 +205,10 @@ struct View<'a, T: Scalar> {
     state: &'a State<T>,
     /// Relative to sizes.
     near: f64,
-    /// Size of positions.
+    /// Size of positions, 1 at least.
     extent: f64,
+    /// Per coordinate, where they are given: the size below which its errors are absolute.
+    sizes: &'a [f64],
 }
 
 impl<T: Scalar> View<'_, T> {
@@ -212,18 +216,34 @@ impl<T: Scalar> View<'_, T> {
         self.dynamics.motion(place).value()
     }
 
+    /// Size of the position of a row.
+    fn extent(&self, row: usize) -> f64 {
+        match self.sizes {
+            [] => self.extent,
+            _ => self.sum(row, |j| self.state.q[j].value().abs()),
+        }
+    }
+
     /// Size of the rate of a row.
     fn speed(&self, row: usize) -> f64 {
+        if !self.sizes.is_empty() {
+            return self.sum(row, |j| self.state.v[j].value().abs());
+        }
         let terms = self.dynamics.description().rows[row].jacobian.iter();
         terms
             .map(|&(j, place)| (self.number(place) * self.state.v[j].value()).abs())
             .fold(1.0_f64, f64::max)
     }
 
-    /// What velocities of their size, at least 1, make of a row at most.
+    /// What velocities of their size, or of that below which errors are absolute, make of a row at most.
     fn fastest(&self, row: usize) -> f64 {
+        self.sum(row, |j| self.state.v[j].value().abs())
+    }
+
+    /// The sum of the terms of a row for coordinates or velocities of their size, or of that below which errors are absolute.
+    fn sum(&self, row: usize, size: impl Fn(usize) -> f64) -> f64 {
         let terms = self.dynamics.description().rows[row].jacobian.iter();
-        let size = |j: usize| self.state.v[j].value().abs().max(1.0);
+        let size = |j: usize| size(j).max(least_size(self.sizes, j));
         let terms = terms.map(|&(j, place)| self.number(place).abs() * size(j));
         terms.sum()
     }

@@ -199,7 +199,7 @@ impl<T: Scalar> Run<T> {
         reference: &State<T>,
         fixed: &FixedComponents<T>,
     ) -> Result<State<T>, Error> {
-        let tolerance = self.settings.tolerance;
+        let tolerance = self.settings.per_step();
         self.dynamics.restart();
         start::consistent(&mut self.dynamics, time, tolerance, reference, fixed)
     }
@@ -299,7 +299,7 @@ impl<T: Scalar> Run<T> {
             self.now.t,
             &self.recorder.trajectory.start,
             &mut self.now.state,
-            self.settings.tolerance,
+            self.settings.per_step(),
             self.settings.project_start,
             &mut self.switcher.status,
         );
