@@ -409,11 +409,14 @@ impl<T: Scalar> Run<T> {
             facts.parting[c] = !outcome.stays[c];
         }
         for (f, friction) in d.frictions.iter().enumerate() {
+            // A body that falls flat on its face while a corner of it sticks pushes that corner by the error of its angle.
+            let sticks_on = self.now.mode.frictions[f] == FrictionMode::Stick
+                && outcome.slips[f] <= self.settings.tolerance;
             facts.resting[f] = match friction.normal {
                 Normal::Contact(c) if !self.switcher.near.contains(&c) => facts.resting[f],
                 // Others that stick may have ended its slip.
                 Normal::Contact(_) | Normal::Constraint(_) | Normal::Resultant(_) => {
-                    outcome.sticks[f] || self.rests_after(outcome, f)
+                    outcome.sticks[f] || sticks_on || self.rests_after(outcome, f)
                 }
                 // No impulse acts there, but the impact may have begun or ended its slip.
                 Normal::Given(_) => self.rests_after(outcome, f),

@@ -59,6 +59,8 @@ pub struct Impact<T> {
     pub struck: Vec<bool>,
     /// Per friction that can act: the slip vanishes afterwards.
     pub sticks: Vec<bool>,
+    /// Per friction that can act: the slip afterwards, as a share of what impulses of this size can make of it.
+    pub slips: Vec<f64>,
     /// Whether the restitution was lowered.
     pub lowered: bool,
     /// Whether dependent rows leave some impulses undetermined; those given are the least that contacts and friction allow.
@@ -225,9 +227,16 @@ impl<T: Scalar> Collider<T> {
             let effect = turns.impulses[row].value() * c.g(row, row).value();
             outcome.struck[touch.contact] = effect > turns.noise[row];
         }
+        let efforts = turns.impulses.iter().enumerate();
+        let effort: f64 = efforts.map(|(j, x)| c.strength(j) * x.value().abs()).sum();
+        outcome.slips.clear();
+        outcome.slips.resize(d.frictions.len(), 0.0);
         for rub in &c.rubs {
-            let slip = length(&turns.rates[rub.row..rub.row + rub.components]);
+            let rows = rub.row..rub.row + rub.components;
+            let slip = length(&turns.rates[rows.clone()]);
             outcome.sticks[rub.friction] = slip <= turns.noise[rub.row];
+            let strength = rows.map(|row| c.strength(row)).fold(0.0, f64::max);
+            outcome.slips[rub.friction] = slip / (strength * effort).max(f64::MIN_POSITIVE);
         }
     }
 
