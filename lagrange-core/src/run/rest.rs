@@ -142,12 +142,18 @@ impl<T: Scalar> Run<T> {
         let State { q, v, .. } = &self.now.state;
         let frictions = 0..d.frictions.len();
         let may_turn = frictions.clone().any(|f| self.turns(f));
+        self.stepper.astray = 0.0;
         if T::DERIVATIVES > 0 || self.now.mode.has_incipient_slip() || !may_turn {
             return false;
         }
         self.dynamics.tape(self.now.t, q, v);
         for f in frictions {
-            if self.turns(f) && self.is_within_errors(f) && !guard::fades(f, &self.dynamics) {
+            if !self.turns(f) {
+                continue;
+            }
+            let astray = self.error_of_direction(f);
+            self.stepper.astray = astray.max(self.stepper.astray);
+            if astray * ERRORS >= 1.0 && !guard::fades(f, &self.dynamics) {
                 self.rest_as_it_is(f);
             }
         }
@@ -163,11 +169,6 @@ impl<T: Scalar> Run<T> {
             self.locator.rests.clear();
         }
         held
-    }
-
-    /// Whether a slip of two components, at the state of the last tape, is lost among the errors of the velocities.
-    fn is_within_errors(&self, f: usize) -> bool {
-        self.error_of_direction(f) * ERRORS >= 1.0
     }
 
     /// How far the directions of slips may be off, because velocities are; the values are those of the state.

@@ -49,6 +49,11 @@ const NO_ROOT: f64 = 0.5;
 /// Steps of so many times the resolution of time are left to Taylor series.
 const KINK: f64 = 1e4;
 
+/// Where directions of slips are off by more than this share,
+const ASTRAY: f64 = 1e-2;
+/// steps are shorter by this factor: their errors are then some hundredth of those allowed.
+const MORE_EXACTLY: f64 = 0.75;
+
 /// What makes the polynomials of a step, and the step at hand.
 #[derive(Debug)]
 pub(super) struct Stepper<T> {
@@ -62,6 +67,8 @@ pub(super) struct Stepper<T> {
     pub(super) wanted: Option<f64>,
     /// Longest step of Taylor series for which guards that bend more than the motion are good, while they are what bounds the steps.
     guarded: Option<f64>,
+    /// The share by which directions of slips are off at the present state.
+    pub(super) astray: f64,
     /// Breaks of guards that were passed since the last step that no guard has bounded so.
     breaks: usize,
     pub(super) stiffness: Stiffness<T>,
@@ -90,6 +97,7 @@ impl<T: Scalar> Stepper<T> {
             other: Integrator::new(settings.method, n).map(Box::new),
             wanted: None,
             guarded: None,
+            astray: 0.0,
             breaks: 0,
             stiffness: Stiffness::new(settings.method),
             resolution: Resolution::default(),
@@ -115,6 +123,7 @@ impl<T: Scalar> Stepper<T> {
     pub(super) fn restart(&mut self) {
         self.control = DefectControl::default();
         (self.wanted, self.guarded, self.breaks) = (None, None, 0);
+        self.astray = 0.0;
         self.resolution = Resolution::default();
         if let Some(method) = &mut self.other {
             method.restart();
@@ -145,6 +154,11 @@ impl<T: Scalar> Run<T> {
         let (moves, mut order) = self
             .longest_series()
             .ok_or_else(|| self.not_finite("a Taylor coefficient"))?;
+        // Errors of the size that is allowed would be all that is left of a slip whose direction is stiff.
+        let moves = match self.stepper.astray > ASTRAY {
+            true => MORE_EXACTLY * moves,
+            false => moves,
+        };
         let moves = moves.min(longest);
         let mut h = self.stepper.guarded.map_or(moves, |h| h.min(moves));
         let mut guarded = h < moves;
