@@ -23,6 +23,9 @@ use crate::trajectory::State;
 /// A gap that changes by no more than so many tolerances per second where its region begins neither closes nor opens there.
 const ENTERS: f64 = 10.0;
 
+/// A body that is closed at some points may be off by so many times more at others.
+const LEVER: f64 = 4.0;
+
 /// What is no larger than this beside the terms that make it is what rounding has left of zero.
 const ROUNDING: f64 = 1e-13;
 
@@ -286,10 +289,12 @@ impl<T: Scalar> Run<T> {
         // What has just parted may be pushed back, and so may what is away by no more than rounding.
         let mut near = core::mem::take(&mut self.switcher.near);
         near.clear();
+        let vanish = (0..d.contacts.len()).filter(|&c| facts.touching[c]);
+        let off = vanish.map(|c| self.gap(c).abs()).fold(0.0, f64::max);
         for c in 0..d.contacts.len() {
             if facts.touching[c] || facts.parting[c] {
                 near.push(c);
-            } else if self.may_touch(c, facts) && self.is_within_rounding(c) {
+            } else if self.may_touch(c, facts) && self.is_within_rounding(c, off) {
                 near.push(c);
                 facts.arriving[c] |= self.approaching(c);
             }
@@ -363,9 +368,10 @@ impl<T: Scalar> Run<T> {
         takes_part && !(facts.touching[c] || self.now.below[c] || is_at_edge)
     }
 
-    /// Whether rounding explains the gap of contact `c`.
-    fn is_within_rounding(&self, c: usize) -> bool {
-        self.is_in_region(c) && self.gap(c).abs() <= self.rounding_of_gap(c)
+    /// Whether rounding explains the gap of contact `c`, or what the run has left of the gaps that vanish, which are `off` by so much: a table that
+    /// falls back from two of its feet lands on the others at once.
+    fn is_within_rounding(&self, c: usize, off: f64) -> bool {
+        self.is_in_region(c) && self.gap(c).abs() <= self.rounding_of_gap(c).max(LEVER * off)
     }
 
     /// Whether the gap of contact `c` and its rate vanish beside the terms that make them; gaps that vanish are `off` by so much.
