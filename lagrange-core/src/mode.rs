@@ -219,21 +219,14 @@ impl Mode {
         }
     }
 
-    /// What holds on the side of each branch that the motion depends on, `x >= 0`. A run does not watch a branch that outputs
-    /// alone contain, so that a mode does not know its side.
+    /// What holds on the side of each branch that the motion depends on, `x >= 0`, not outputs, stops and marks alone.
     pub fn sides<'a>(
         &'a self,
         description: &'a Description,
     ) -> impl Iterator<Item = &'static str> + 'a {
-        let reported = |need: &usize| {
-            description
-                .observes
-                .iter()
-                .any(|output| output.need == *need)
-        };
-        let branches = description.branches.iter().enumerate();
-        let moving = branches.filter(move |(_, branch)| !branch.users.iter().all(reported));
-        moving.map(|(i, _)| self.side(description, i))
+        let branches = 0..description.branches.len();
+        let moving = branches.filter(|&index| description.branch_moves(index));
+        moving.map(|index| self.side(description, index))
     }
 
     /// What holds on the side of branch `index`, `x >= 0`.

@@ -14,7 +14,7 @@ mod scalar;
 mod tests;
 
 pub use dual::Dual;
-pub(crate) use number::{LIGHT, Number, epsilon, is_spread, positive_definite};
+pub(crate) use number::{LIGHT, Number, epsilon, is_spread, positive_definite, rounding};
 pub(crate) use pack::Pack;
 pub(crate) use registers::Registers;
 

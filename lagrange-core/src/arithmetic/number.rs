@@ -61,6 +61,12 @@ pub trait Number:
     fn is_safe_pivot(pivot: Self, before: Self, below: &[Self]) -> bool;
 }
 
+/// What rounding leaves: a share that is meant for double precision, in units of the last place of `T`.
+#[inline(always)]
+pub(crate) fn rounding<T: Scalar>(of_double: f64) -> f64 {
+    of_double * (epsilon::<T>() / f64::EPSILON)
+}
+
 /// The distance from 1 to the next number of a type.
 #[inline(always)]
 pub(crate) fn epsilon<T: Scalar>() -> f64 {

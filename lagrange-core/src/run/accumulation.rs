@@ -10,7 +10,7 @@
 
 use super::Run;
 use super::instant::derivatives;
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, rounding};
 use crate::error::Error;
 use crate::mode::FrictionMode;
 use crate::modes::facts::SwitchFacts;
@@ -99,7 +99,7 @@ impl<T: Scalar> Impacts<T> {
         // Under a constant force.
         self.height = 0.25 * rate.abs() * interval;
         self.intervals[self.count % REMEMBERED] = interval;
-        self.unresolved = if interval <= RESOLUTION * time.abs() {
+        self.unresolved = if interval <= rounding::<T>(RESOLUTION) * time.abs() {
             self.unresolved + 1
         } else {
             0
@@ -236,7 +236,7 @@ impl<T: Scalar> Run<T> {
         let (rate, _) = self.rate(self.description().contacts[c].row);
         let (remaining, uncertain) = self.switcher.impacts[c].book(self.now.t, rate)?;
         let certain = uncertain <= self.settings.tolerance * self.now.t.value().abs().max(1.0)
-            || remaining.value() <= RESOLUTION * self.now.t.value().abs();
+            || remaining.value() <= rounding::<T>(RESOLUTION) * self.now.t.value().abs();
         if !(certain && self.is_over(remaining.value())) {
             return None;
         }
@@ -284,7 +284,7 @@ impl<T: Scalar> Run<T> {
         };
         let State { q, v, .. } = &self.now.state;
         // Below the resolution of time nothing can be told apart.
-        let resolved = remaining > RESOLUTION * self.now.t.value().abs();
+        let resolved = remaining > rounding::<T>(RESOLUTION) * self.now.t.value().abs();
         !(resolved && q.iter().zip(v).enumerate().any(moves))
     }
 
@@ -311,7 +311,7 @@ impl<T: Scalar> Run<T> {
         let number = |place| self.dynamics.motion(place).value();
         let terms = d.rows[d.contacts[c].row].jacobian.iter();
         let sizes = terms.map(|&(j, place)| number(place) * self.now.state.q[j].value());
-        ROUNDING * sizes.map(f64::abs).sum::<f64>()
+        rounding::<T>(ROUNDING) * sizes.map(f64::abs).sum::<f64>()
     }
 
     /// Whether the gap of contact `c` is below the tolerance.

@@ -5,8 +5,8 @@
 //! interpolation holds.
 
 use super::samples::SampledRoot;
-use crate::arithmetic::Scalar;
 use crate::arithmetic::quad::{Quad, QuadBody, side_by_side};
+use crate::arithmetic::{self, Scalar};
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::effects::{Effects, Item};
 use crate::events::{Root, RootList, clearance, deflate, keeps_its_sign, turns};
@@ -407,7 +407,7 @@ impl GuardPolynomials {
             .enumerate()
         {
             let (located, least) = known(curve.guard);
-            let (share, floor) = allowance(curve.guard, located);
+            let (share, floor) = allowance::<T>(curve.guard, located);
             let blur = if curve.guard.is_force() { blur } else { 0.0 };
             let allowed = (share * tolerance).max(floor).max(blur);
             let value = self.value(index, mode, dynamics);
@@ -519,7 +519,7 @@ impl GuardPolynomials {
         let mut worst = 0.0;
         for (index, curve) in self.list.iter().enumerate() {
             let c = self.curve(index);
-            let (share, floor) = allowance(curve.guard, false);
+            let (share, floor) = allowance::<T>(curve.guard, false);
             let allowed = (share * tolerance).max(floor).max(INTERPOLATION);
             let value = self.value(index, mode, dynamics);
             let size = value.abs() + (c[0].abs() + c[1].abs());
@@ -545,7 +545,7 @@ impl GuardPolynomials {
         tolerance: f64,
     ) -> bool {
         let guard = self.list[index].guard;
-        let (share, floor) = allowance(guard, true);
+        let (share, floor) = allowance::<T>(guard, true);
         let allowed = (share * tolerance).max(floor).max(INTERPOLATION);
         let (c, value) = (self.curve(index), self.value(index, mode, dynamics));
         let size = value.abs() + (c[0].abs() + c[1].abs());
@@ -613,8 +613,9 @@ impl GuardPolynomials {
 /// made of all of them.
 #[inline]
 pub(super) fn rounding<T: Scalar>(error: f64, guard: Guard, dynamics: &Dynamics<T>) -> f64 {
-    if error <= ROUNDING {
-        return ROUNDING;
+    let least = arithmetic::rounding::<T>(ROUNDING);
+    if error <= least {
+        return least;
     }
     let state = dynamics.time_and_state();
     let n = state.len() / 2;
@@ -622,10 +623,10 @@ pub(super) fn rounding<T: Scalar>(error: f64, guard: Guard, dynamics: &Dynamics<
         Guard::Gap(_) => &state[1..=n],
         Guard::Slip(_) => &state[1 + n..],
         Guard::Stop(..) | Guard::Mark(..) | Guard::Branch(_) => state,
-        _ => return ROUNDING,
+        _ => return least,
     };
     let larger = |size: f64, x: &T| size.max(x.value().abs());
-    ROUNDING * terms.iter().fold(1.0, larger)
+    least * terms.iter().fold(1.0, larger)
 }
 
 /// Error that a guard may have at the end of a step: in units of the tolerance, and at least.
@@ -633,11 +634,12 @@ pub(super) fn rounding<T: Scalar>(error: f64, guard: Guard, dynamics: &Dynamics<
 /// Forces are second derivatives, and the worse for it. Where a guard has been located it has to be exact, else it only must not
 /// be missed.
 #[inline]
-fn allowance(guard: Guard, located: bool) -> (f64, f64) {
-    match (guard.is_force(), located) {
+fn allowance<T: Scalar>(guard: Guard, located: bool) -> (f64, f64) {
+    let (share, floor) = match (guard.is_force(), located) {
         (true, true) => (10.0, 1e-12),
         (true, false) => (1e4, 1e-10),
         (false, true) => (0.1, 1e-14),
         (false, false) => (10.0, 1e-13),
-    }
+    };
+    (share, arithmetic::rounding::<T>(floor))
 }

@@ -139,7 +139,7 @@ impl<T: Scalar> Run<T> {
             Some((Subject::Friction(f), kind))
         });
         let branches = (0..d.branches.len())
-            .filter(|&b| before.branch(b) != after.branch(b))
+            .filter(|&b| before.branch(b) != after.branch(b) && d.branch_moves(b))
             .map(|b| (Subject::Branch(b), EventKind::Branches));
         let around = Around {
             before,

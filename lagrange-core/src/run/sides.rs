@@ -4,7 +4,7 @@
 //! may hold a condition at its border.
 
 use super::Run;
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, rounding};
 use crate::mode::FrictionMode;
 use crate::modes::facts::SwitchFacts;
 use crate::modes::guard::Guard;
@@ -49,7 +49,7 @@ impl<T: Scalar> Run<T> {
             if guard == before[b] {
                 return None;
             }
-            let vanishes = guard.abs() <= ROUNDING * before[b].abs().max(fastest);
+            let vanishes = guard.abs() <= rounding::<T>(ROUNDING) * before[b].abs().max(fastest);
             facts.balanced[b] |= vanishes;
             (!vanishes).then_some(guard > 0.0)
         });

@@ -2,7 +2,7 @@
 
 use super::accumulation::{Impacts, Train};
 use super::{Progress, Run};
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, rounding};
 use crate::effects::Item;
 use crate::error::Error;
 use crate::mode::{FrictionMode, Mode};
@@ -276,7 +276,7 @@ impl<T: Scalar> Run<T> {
             if enters && rate.abs() <= ENTERS * self.settings.tolerance * size {
                 // It rolls onto the surface.
                 facts.arriving[c] = false;
-            } else if rate > 1e-12 * size {
+            } else if rate > rounding::<T>(1e-12) * size {
                 // A gap that rounding has left below zero may be growing.
                 (facts.touching[c], facts.arriving[c], facts.parting[c]) = (false, false, true);
                 let of_contact = [Guard::Gap(c), Guard::Region(c)];
@@ -386,8 +386,8 @@ impl<T: Scalar> Run<T> {
             .sum();
         let (rate, size) = self.rate(contact.row);
         self.is_in_region(c)
-            && gap.abs() <= ROUNDING * extent + off
-            && rate.abs() <= ROUNDING * size
+            && gap.abs() <= rounding::<T>(ROUNDING) * extent + off
+            && rate.abs() <= rounding::<T>(ROUNDING) * size
     }
 
     /// Whether the switch has brought rows that the state need not satisfy to rounding.
@@ -404,7 +404,8 @@ impl<T: Scalar> Run<T> {
     fn approaching(&self, c: usize) -> bool {
         let d = self.description();
         let (rate, size) = self.rate(d.contacts[c].row);
-        self.dynamics.effects().includes(d, Item::Contact(c)) && rate < -ROUNDING * size
+        self.dynamics.effects().includes(d, Item::Contact(c))
+            && rate < -rounding::<T>(ROUNDING) * size
     }
 
     /// What is known after an impact; `dynamics` still holds the state before.
@@ -445,7 +446,7 @@ impl<T: Scalar> Run<T> {
                 slip += part;
                 size += part.abs();
             }
-            slip.abs() <= ROUNDING * size
+            slip.abs() <= rounding::<T>(ROUNDING) * size
         })
     }
 
@@ -525,7 +526,7 @@ impl<T: Scalar> Run<T> {
         let sizes = self.rates_of_slip(f).map(|(_, size)| size);
         let size = sizes.fold(0.0, f64::max);
         let mut rates = self.rates_of_slip(f);
-        rates.all(|(rate, _)| rate.abs() <= ROUNDING * size)
+        rates.all(|(rate, _)| rate.abs() <= rounding::<T>(ROUNDING) * size)
     }
 
     /// [`Self::rate`] of every component of the slip of friction `f`.

@@ -22,6 +22,9 @@ const FINEST: f64 = 4.0;
 /// The same for the other methods, whose estimates of their errors are differences of nearly equal sums.
 const FINEST_SUM: f64 = 512.0;
 
+/// Tolerance of what the run at the tightest one is compared with, over that.
+const LOOSER: f64 = 10.0;
+
 /// Looser than this a run within an error does not begin: it may miss what happens.
 const LOOSEST: f64 = 1e-8;
 
@@ -138,9 +141,24 @@ impl<T: Runnable> Work<T> {
                 reason,
             };
             let finer = settings.finer::<T>(factor);
-            if finer.is_as_fine_as(&settings) || stays == PATIENCE {
+            let finest = finer.is_as_fine_as(&settings);
+            if finest && stays < PATIENCE {
+                // What the last run differs by is the error of the one before, which may have been far looser.
+                let looser = settings.finer::<T>(LOOSER);
+                let (near, outcome) = self.another(&looser, start, span.clone());
+                let difference = near.difference(self);
+                if outcome.is_ok() && difference.error() <= SHARE * error {
+                    self.trajectory.estimate = Some(looser.estimate(difference));
+                    return Ok(());
+                }
+            }
+            if finest || stays == PATIENCE {
                 let estimate = self.trajectory.estimate();
-                let reason = estimate.map(|estimate| reason(&estimate.difference, best));
+                let difference = estimate.map(|estimate| &estimate.difference);
+                let reason = difference.map(|difference| match stays == PATIENCE {
+                    true => of_rounding(difference, best),
+                    false => of_tolerance(difference, settings.tolerance),
+                });
                 return Err(inexact(reason.unwrap_or_default()));
             }
             let (mut next, outcome) = self.another(&finer, start, span.clone());
@@ -183,18 +201,36 @@ impl<T: Runnable> Work<T> {
     }
 }
 
-/// Why runs do not agree, and what would help.
-fn reason(difference: &Difference, best: f64) -> String {
+/// Why runs do not agree that are as exact as numbers are, and what would help.
+fn of_rounding(difference: &Difference, best: f64) -> String {
+    let growth = (best / f64::EPSILON).max(1.0).ln();
+    part(difference).unwrap_or_else(|what| {
+        format!(
+            "{what} by {best:.1e} however tight the tolerance is, from rounding that grows by e^{growth:.0}; end earlier, or ask \
+             for less"
+        )
+    })
+}
+
+/// The same where the method has no tighter tolerance.
+fn of_tolerance(difference: &Difference, tightest: f64) -> String {
+    part(difference).unwrap_or_else(|what| {
+        format!(
+            "{what} by {:.1e} at the tightest tolerance that this method has, {tightest:.1e}; the default method, `auto`, goes further",
+            difference.error()
+        )
+    })
+}
+
+/// That two runs part, or else what differs.
+fn part(difference: &Difference) -> Result<String, String> {
     if let Some(parting) = &difference.parting {
-        return format!("the last two runs part at {parting}; end before that");
+        return Ok(format!(
+            "the last two runs part at {parting}; end before that"
+        ));
     }
-    let what = match difference.event_error {
+    Err(match difference.event_error {
         Some(error) if error > difference.state_error => "the times of events differ".to_owned(),
         _ => format!("`{}` differs", difference.coordinate),
-    };
-    let growth = (best / f64::EPSILON).max(1.0).ln();
-    format!(
-        "{what} by {best:.1e} however tight the tolerance is, from rounding that grows by e^{growth:.0}; end earlier, or ask \
-         for less"
-    )
+    })
 }

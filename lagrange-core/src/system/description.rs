@@ -87,6 +87,18 @@ pub struct Description {
     pub impacts: Impacts,
 }
 
+impl Description {
+    /// Whether anything but outputs, stops and marks contains branch `index`.
+    pub(crate) fn branch_moves(&self, index: usize) -> bool {
+        let reported = |user: &usize| {
+            let outputs = self.observes.iter().map(|output| output.need);
+            let watches = self.stops.iter().chain(self.marks).map(|watch| watch.need);
+            outputs.chain(watches).any(|need| need == *user)
+        };
+        !self.branches[index].users.iter().all(reported)
+    }
+}
+
 /// Units of what a run reports, beside those of parameters, coordinates and [`Observe`]: derived at build time from the
 /// declared ones. An empty text is a plain number, or a unit that does not follow; all are empty if no unit is declared.
 #[derive(Clone, Copy, Debug)]

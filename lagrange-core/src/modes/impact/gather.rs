@@ -4,7 +4,7 @@ use super::Impact;
 use super::bearing::Bearing;
 use super::collision::{Collision, ContactRow, FrictionRow, NormalSource};
 use super::pattern::ROUNDING;
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, rounding};
 use crate::dynamics::Dynamics;
 use crate::effects::Item;
 use crate::linear::{Equilibrated, least_norm};
@@ -351,7 +351,7 @@ impl<T: Scalar> Gathering<T> {
             let changes: f64 = answers
                 .map(|(answer, &share)| (share * answer[j]).value().abs())
                 .sum();
-            if after.value().abs() <= ROUNDING * (v[j].value().abs() + changes) {
+            if after.value().abs() <= rounding::<T>(ROUNDING) * (v[j].value().abs() + changes) {
                 *after -= T::from_f64(after.value());
             }
         }

@@ -14,7 +14,7 @@
 use super::collision::Collision;
 use super::pattern::Phase;
 use super::search::Search;
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, rounding};
 
 /// Bisections for the share of the restitution.
 const BISECTIONS: usize = 60;
@@ -150,6 +150,6 @@ impl<T: Scalar> Law<T> {
             gain += impulse.value() * (before.value() + after.value());
             size += impulse.value().abs() * (before.value().abs() + after.value().abs());
         }
-        gain > 1e-13 * size
+        gain > rounding::<T>(1e-13) * size
     }
 }

@@ -164,7 +164,8 @@ impl<T: Scalar> Collider<T> {
         }
         self.write_outcome(d, v);
         let (gain, size) = self.balance(dynamics, v);
-        if gain > GAIN * size + self.rounding(dynamics, v) {
+        let share = GAIN.max(64.0 * epsilon::<T>());
+        if gain > share * size + self.rounding(dynamics, v) {
             return Err(Error::EnergyGain {
                 time: t,
                 item: contact(0),

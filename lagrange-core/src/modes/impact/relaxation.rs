@@ -5,7 +5,7 @@
 
 use super::collision::{Collision, NormalSource};
 use super::pattern::{Pattern, Phase, Slide};
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, rounding};
 
 const MOST_SWEEPS: usize = 3000;
 /// Sweeps end when impulses change by less than this share.
@@ -92,7 +92,7 @@ impl Relaxation {
             for r in 0..c.rubs.len() {
                 change = change.max(self.rub(c, phase, r));
             }
-            if change <= STEADY * size {
+            if change <= rounding::<T>(STEADY) * size {
                 break;
             }
         }

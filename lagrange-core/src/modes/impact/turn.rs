@@ -6,7 +6,7 @@
 use super::collision::Collision;
 use super::law::Law;
 use super::pattern::{ROUNDING, TERMS};
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, rounding};
 
 /// More impacts than this at one instant have no end.
 pub(super) const MOST_IMPACTS: usize = 200_000;
@@ -84,13 +84,14 @@ impl<T: Scalar> Turns<T> {
         self.noise.clear();
         for ((span, rate), terms) in self.spans.iter_mut().zip(&self.rates).zip(&c.terms) {
             *span = span.max(rate.value().abs());
-            self.noise.push(ROUNDING * *span + TERMS * terms);
+            self.noise
+                .push(rounding::<T>(ROUNDING) * *span + rounding::<T>(TERMS) * terms);
         }
         // What an impulse does in other rows is known to rounding of what it does in its own.
         let impulses = self.impulses.iter().enumerate();
         let effort: f64 = impulses.map(|(j, x)| c.strength(j) * x.value().abs()).sum();
         for (i, noise) in self.noise.iter_mut().enumerate() {
-            *noise += TERMS * c.strength(i) * effort;
+            *noise += rounding::<T>(TERMS) * c.strength(i) * effort;
         }
     }
 }

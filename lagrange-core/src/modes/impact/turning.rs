@@ -9,7 +9,7 @@
 
 use super::collision::{Collision, FrictionRow, NormalSource};
 use super::pattern::{Pattern, Phase, Slide, length};
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, rounding};
 
 /// Newton steps for directions of slip.
 const MOST_STEPS: usize = 30;
@@ -73,8 +73,9 @@ impl<T: Scalar> Pattern<T> {
             self.move_on(c, phase);
             // Quadratic: what is left after a step this small is rounding. Of a small slip rounding leaves the direction open.
             let stalls = change >= 0.5 * last;
-            if change <= 1e-15 * size
-                || stalls && (change <= 1e-12 * size || self.is_settled(c, phase, linear))
+            if change <= rounding::<T>(1e-15) * size
+                || stalls
+                    && (change <= rounding::<T>(1e-12) * size || self.is_settled(c, phase, linear))
             {
                 return true;
             }

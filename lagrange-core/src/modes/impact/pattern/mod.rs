@@ -14,7 +14,7 @@ mod judgement;
 mod shares;
 
 use super::collision::{Collision, FrictionRow, NormalSource};
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, rounding};
 use crate::linear::{Equilibrated, ForceBounds};
 pub(super) use judgement::Violation;
 pub(super) use shares::Share;
@@ -239,8 +239,8 @@ impl<T: Scalar> Pattern<T> {
                 size += part.value().abs();
             }
             self.after.push(rate);
-            let rounding = ROUNDING * size + TERMS * (c.terms[i] + c.strength(i) * effort);
-            self.noise.push(rounding);
+            let terms = rounding::<T>(TERMS) * (c.terms[i] + c.strength(i) * effort);
+            self.noise.push(rounding::<T>(ROUNDING) * size + terms);
         }
     }
 }

@@ -6,7 +6,7 @@ use super::super::bearing::Axes;
 use super::super::collision::{Collision, NormalSource};
 use super::super::pattern::{Pattern, Phase, ROUNDING};
 use super::Search;
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, rounding};
 use crate::linear::direction::{is_along, length, settle};
 
 /// A collision with its bearings turned.
@@ -64,7 +64,7 @@ impl<T: Scalar> Turned<T> {
             let turned = bearing.impulse(&found.impulses);
             let size = length(turned.map(|x| T::from_f64(x.value()))).value();
             let strengths = bearing.rows().iter().map(|&row| c.strength(row));
-            if !(size * strengths.fold(0.0, f64::max) > ROUNDING * effort) {
+            if !(size * strengths.fold(0.0, f64::max) > rounding::<T>(ROUNDING) * effort) {
                 continue;
             }
             let across = length([T::zero(), turned[1], turned[2]].map(|x| T::from_f64(x.value())));
