@@ -842,3 +842,85 @@ fn a_force_that_grows_without_bound_names_its_contact() {
         }
     }
 }
+
+/// A block slides under a load that falls with its way, on ground that grows smoother, or against a brake whose limit does.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2/2,
+    friction(load: slip = der(x), normal = weight - lifts*x, static = mu),
+    friction(ground: slip = der(x), normal = weight, static = mu - smoother*x),
+    friction(brake: slip = der(x), limit = mu*(weight - looser*x)),
+    start(go: der(x) = speed),
+)]
+struct Lightened {
+    weight: f64,
+    mu: f64,
+    lifts: f64,
+    smoother: f64,
+    looser: f64,
+    speed: f64,
+}
+
+#[test]
+fn friction_does_not_push() {
+    let block = Lightened {
+        weight: 5.0,
+        mu: 0.4,
+        lifts: 0.0,
+        smoother: 0.0,
+        looser: 0.0,
+        speed: 4.0,
+    };
+    for (item, what, scene) in [
+        (
+            "load",
+            "normal force",
+            Lightened {
+                lifts: 12.5,
+                ..block
+            },
+        ),
+        (
+            "ground",
+            "kinetic friction",
+            Lightened {
+                smoother: 1.0,
+                ..block
+            },
+        ),
+        (
+            "brake",
+            "kinetic friction",
+            Lightened {
+                looser: 12.5,
+                ..block
+            },
+        ),
+    ] {
+        for method in lagrange_tests::fuzz::METHODS {
+            let simulation = Simulation::new(&scene).method(method.parse().expect("a method"));
+            let failure = simulation.run(scene.at(Lightened::GO), 0.0..3.0);
+            let failure = failure.expect_err("it would push");
+            let Error::Domain {
+                item: found,
+                what: number,
+                ..
+            } = failure.error
+            else {
+                panic!("{item}: {}", failure.error)
+            };
+            assert_eq!(found, item, "{method}");
+            assert!(number == what || number == "static friction", "{number}");
+            // All three are nothing where it is 0.4 m on.
+            agree(method, failure.trajectory.final_state().q[0], 0.4, 1e-5);
+        }
+        let begins = Lightened {
+            weight: -1.0,
+            ..scene
+        };
+        let refused = Simulation::new(&begins).run(begins.at(Lightened::GO), 0.0..1.0);
+        let refused = refused.expect_err("a load that pulls");
+        assert!(matches!(refused.error, Error::Domain { .. }), "{refused}");
+    }
+}

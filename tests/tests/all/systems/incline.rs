@@ -92,6 +92,32 @@ fn a_block_pushed_sideways_comes_to_rest() {
     }
 }
 
+/// Friction hardly stronger than the slope: long before it stops, its direction follows the slope in a time that is far shorter than its fall. Errors of
+/// single steps, however small, must not be all that is left of the slip.
+#[test]
+fn friction_hardly_stronger_than_the_slope() {
+    for ratio in [1.01, 1.001] {
+        let speed = 1.3;
+        let [time, across, down] = way(ratio, speed, 1.0, 0.0);
+        for (method, tolerance) in [
+            ("auto", 1e-9),
+            ("taylor", 1e-9),
+            ("taylor", 1e-12),
+            ("radau5", 1e-9),
+        ] {
+            let start = state(&[0.0; 3], &[speed, 0.0, 0.0]);
+            let what = (method, tolerance);
+            let trajectory = run_by(&block(ratio), what, start, 1.1 * time);
+            assert_eq!(words(&trajectory), ["grip sticks"], "{what:?}");
+            let rest = event(&trajectory, "grip", "sticks");
+            agree("time", rest.time, time, 1e-6);
+            all_agree("place", &rest.state.q, &[across, down, 0.0], 1e-7);
+            let steps = trajectory.work().steps;
+            assert!(steps < 4000, "{what:?}: {steps} steps");
+        }
+    }
+}
+
 /// Friction as strong as the slope: it never stops, v (1 + cos ψ) = v₀, and ends downhill with half the speed.
 #[test]
 fn friction_as_strong_as_the_slope() {

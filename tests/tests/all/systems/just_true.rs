@@ -270,3 +270,57 @@ fn impacts_are_as_exact_as_ends_of_steps() {
         }
     }
 }
+
+/// A ball bounces; marks at the surface itself, and just above it.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y),
+    kinetic = der(y)^2/2,
+    potential = gravity * y,
+    contact(floor: y >= 0, restitution = bounce),
+    mark(height: y),
+    mark(twice: 2*y),
+    mark(down: y <= 0),
+    mark(near: y <= 0.01),
+    mark(turns: der(y)),
+    start(drop: y = 1),
+)]
+struct Bouncing {
+    gravity: f64,
+    bounce: f64,
+}
+
+/// Each blow passes the marks at the surface once; and a mark that begins with zero has not passed it.
+#[test]
+fn marks_at_a_surface_are_passed_once_a_blow() {
+    let ball = Bouncing {
+        gravity: 9.81,
+        bounce: 0.5,
+    };
+    let fall = (2.0_f64 / ball.gravity).sqrt();
+    for method in lagrange_tests::fuzz::METHODS {
+        let motion =
+            lagrange_tests::run_by(&ball, (method, 1e-9), ball.at(Bouncing::DROP), 2.3 * fall);
+        let times = |kind: EventKind, name: &str| -> Vec<f64> {
+            let events = motion.events().iter();
+            let own =
+                events.filter(|e| e.kind == kind && e.subject.name(motion.description()) == name);
+            own.map(|e| e.time).collect()
+        };
+        let blows = times(EventKind::Impact, "floor");
+        assert_eq!(blows.len(), 2, "{method}");
+        for name in ["height", "twice", "down"] {
+            let marks = times(EventKind::Mark, name);
+            assert_eq!(marks.len(), 2, "{method} {name}: {marks:?}");
+            for (mark, blow) in marks.iter().zip(&blows) {
+                assert!((mark - blow).abs() < 1e-9, "{method} {name}");
+            }
+        }
+        assert_eq!(times(EventKind::Mark, "near").len(), 2, "{method}");
+        // Not where it is let go, but at the height of its bounce.
+        let turns = times(EventKind::Mark, "turns");
+        let top = turns.iter().filter(|t| (*t - 1.5 * fall).abs() < 1e-8);
+        assert_eq!(top.count(), 1, "{method}: {turns:?}");
+        assert!(turns.iter().all(|t| *t > 0.1), "{method}: {turns:?}");
+    }
+}

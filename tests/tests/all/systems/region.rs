@@ -495,3 +495,34 @@ fn a_region_with_a_kink_does_not_disturb_what_happens_there() {
         }
     }
 }
+
+/// What is thrown below the edge of a table passes under it, however long the step is in which it does.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    potential = mass * gravity * y,
+    contact(table: y >= 0, where x >= edge),
+)]
+struct Below {
+    mass: f64,
+    gravity: f64,
+    edge: f64,
+}
+
+#[test]
+fn what_passes_below_an_edge_is_certified() {
+    let scene = Below {
+        mass: 0.7,
+        gravity: G,
+        edge: 1.0,
+    };
+    let start = State::new(vec![0.0, 0.1], vec![5.0, 0.0]);
+    for method in lagrange_tests::fuzz::METHODS {
+        for tolerance in [1e-6, 1e-9, 1e-12] {
+            let motion = run_by(&scene, (method, tolerance), start.clone(), 0.6);
+            assert!(motion.events().is_empty(), "{method}");
+            certified(method, &motion);
+        }
+    }
+}

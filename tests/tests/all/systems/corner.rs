@@ -1,0 +1,136 @@
+//! Forces that are not determined where directions of friction turn: guards of such forces are those of one instant.
+
+use lagrange_core::prelude::*;
+use lagrange_tests::fuzz::METHODS;
+use lagrange_tests::{agree, certified, run_by, words};
+
+/// A ball rolls along the corner of a tub's wall and floor.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x[3]),
+    attitude(ball: q),
+    define(
+        far = sqrt(x[0]^2 + x[1]^2),
+        inward = [-x[0]/far, -x[1]/far, 0],
+        ahead = [x[1]/far*(-1), x[0]/far, 0],
+        at_wall = der(x) - radius*cross(ball.space_rate, inward),
+        at_floor = der(x) - radius*cross(ball.space_rate, [0, 0, 1]),
+    ),
+    kinetic = mass/2*dot(der(x), der(x)) + mass*radius^2/5*dot(ball.body_rate, ball.body_rate),
+    potential = mass*gravity*x[2],
+    contact(wall: tub - radius - far >= 0),
+    contact(floor: x[2] >= 0),
+    friction(wall_grip on wall: slip = (dot(at_wall, ahead), at_wall[2]), static = wall_mu),
+    friction(floor_grip on floor: slip = (at_floor[0], at_floor[1]), static = floor_mu),
+    start(roll: x[0] = tub - radius, der(x[1]) = speed, ball.body_rate = (-speed/radius, 0, -speed/radius)),
+)]
+struct Tub {
+    mass: f64,
+    radius: f64,
+    tub: f64,
+    gravity: f64,
+    wall_mu: f64,
+    floor_mu: f64,
+    speed: f64,
+}
+
+/// Of all forces that keep it rolling only one is open, the load that wall and floor pass to one another. Where there are loads with which both frictions
+/// hold, it rolls on round the tub for ever.
+#[test]
+fn a_ball_rolls_in_a_corner_where_some_forces_hold_it() {
+    for (wall_mu, floor_mu, speed) in [
+        (0.6953, 0.7816, 0.8391),
+        (0.4023, 0.4321, 0.899),
+        (0.9, 0.2, 0.31),
+    ] {
+        let tub = Tub {
+            mass: 1.2,
+            radius: 0.02,
+            tub: 0.054,
+            gravity: 9.81,
+            wall_mu,
+            floor_mu,
+            speed,
+        };
+        let path = tub.tub - tub.radius;
+        // In units of the mass: the wall pushes by v²/r and the floor by g; the friction at the wall carries s, and what turns the spin is 2/5 of v²/r.
+        let push = speed * speed / path;
+        let turn = 0.4 * push;
+        let holds = |s: f64| {
+            let (wall, floor) = (push - (s - turn), tub.gravity - s);
+            s.abs() <= wall_mu * wall && (s - turn).abs() <= floor_mu * floor
+        };
+        assert!((-2000..=2000).any(|k| holds(f64::from(k) * 0.005)));
+        for method in METHODS {
+            let motion = run_by(&tub, (method, 1e-9), tub.at(Tub::ROLL), 0.5);
+            assert!(words(&motion).is_empty(), "{method}: {:?}", words(&motion));
+            let angle = speed / path * 0.5;
+            let State { q, .. } = motion.final_state();
+            agree("x", q[0], path * angle.cos(), 1e-6);
+            agree("y", q[1], path * angle.sin(), 1e-6);
+        }
+    }
+}
+
+/// A table that was tipped about the edge between two of its feet falls back.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x[3]),
+    attitude(table: q),
+    define(
+        along = [half_length, half_length, -half_length, -half_length],
+        across = [half_width, -half_width, half_width, -half_width],
+        leg[k in 0..4] = along[k]*table.axes[0] + across[k]*table.axes[1] - height*table.axes[2],
+        foot[k in 0..4] = der(x) + cross(table.space_rate, leg[k]),
+    ),
+    kinetic = mass/2*dot(der(x), der(x)) + sum(k in 0..3: inertia[k]/2*table.body_rate[k]^2),
+    potential = mass*gravity*x[2],
+    contact(stand[k in 0..4]: x[2] + leg[k][2] >= 0),
+    friction(grip[k in 0..4] on stand[k]: slip = (foot[k][0], foot[k][1]), static = mu),
+    observe(turned = table.axes[0][1]),
+    start(tipped: x[2] = height*cos(tilt) + half_width*sin(tilt), table.turn = (tilt, 0, 0)),
+)]
+struct Table {
+    mass: f64,
+    inertia: [f64; 3],
+    gravity: f64,
+    half_length: f64,
+    half_width: f64,
+    height: f64,
+    mu: f64,
+    tilt: f64,
+}
+
+/// Both feet land at one instant, whatever the errors of the others make of their gaps: by symmetry with equal impulses.
+#[test]
+fn a_table_falls_back_on_both_of_its_feet() {
+    let table = Table {
+        mass: 1.0,
+        inertia: [0.02, 0.03, 0.04],
+        gravity: 9.81,
+        half_length: 0.2,
+        half_width: 0.15,
+        height: 0.15,
+        mu: 0.4,
+        tilt: 0.2,
+    };
+    for tolerance in [1e-6, 1e-8, 1e-9, 1e-11] {
+        for method in ["taylor", "dop853"] {
+            let what = (method, tolerance);
+            let motion = run_by(&table, what, table.at(Table::TIPPED), 1.0);
+            let impacts = motion
+                .events()
+                .iter()
+                .filter(|e| e.kind == EventKind::Impact);
+            let impulse = |k: usize| {
+                let mut struck = impacts.clone();
+                let first = struck.next().expect("an impact");
+                first.impulse(Table::STAND[k])
+            };
+            agree(&format!("{what:?}"), impulse(0), impulse(2), 1e-9);
+            let end = motion.sampler().at(1.0).expect("recorded");
+            agree("turned", end.observe(Table::TURNED), 0.0, 1e-9);
+            certified(method, &motion);
+        }
+    }
+}
