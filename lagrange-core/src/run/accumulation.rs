@@ -198,16 +198,18 @@ impl Train {
 }
 
 impl<T: Scalar> Run<T> {
-    /// Ends the infinitely many impacts of contacts that bounce ever less.
+    /// Ends the infinitely many impacts of contacts that bounce ever less; whether there are any. What they do together is in
+    /// [`Collider::rest`](crate::modes::impact::Collider::rest).
     pub(super) fn close_accumulated(
         &mut self,
         outcome: &Impact<T>,
         facts: &mut SwitchFacts,
-    ) -> Result<(), Error> {
+    ) -> Result<bool, Error> {
+        let mut ends = false;
         // A plastic impact after which nothing parts is no bounce; on a rocking block the corner that is hit stays and
         // the other one parts.
         if !facts.parting.contains(&true) {
-            return Ok(());
+            return Ok(ends);
         }
         for c in 0..self.description().contacts.len() {
             if !(outcome.struck[c] && facts.arriving[c]) {
@@ -225,9 +227,10 @@ impl<T: Scalar> Run<T> {
                     self.now.state.clone_from(&self.switcher.before_holding);
                 }
                 closed?;
+                ends = true;
             }
         }
-        Ok(())
+        Ok(ends)
     }
 
     /// After an impact of contact `c`: closes it if the impacts to come are below the tolerance. Returns the number of
@@ -383,10 +386,14 @@ impl<T: Scalar> Run<T> {
             }
         }
         (self.switcher.near, self.switcher.collider.rest) = (near, rest);
+        // The mode is still that of the flights, and so are the forces; what changes with the last one does so from here.
+        self.dynamics.set_mode(&self.now.mode);
+        self.evaluate_all_rows()?;
         let state = core::mem::take(&mut self.now.state);
         let kind = EventKind::Accumulates { impacts: count };
         self.log_watch(Subject::Contact(c), kind, self.now.t, &state);
         self.now.state = state;
+        self.remember_before();
         Ok(())
     }
 }

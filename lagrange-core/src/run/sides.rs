@@ -27,29 +27,34 @@ impl<T: Scalar> Run<T> {
         self.switcher.watched = watched;
     }
 
-    /// Puts branches on their sides that an impact has moved them to; what it has moved to their borders is balanced.
-    pub(super) fn take_sides_after_impact(&mut self, facts: &mut SwitchFacts) {
+    /// Remembers the conditions of branches just before an impact, from the values of all rows.
+    pub(super) fn note_conditions(&mut self) {
         let d = self.description();
+        self.switcher.conditions.clear();
         if d.branches.iter().all(|branch| branch.after_solve) {
             return;
         }
-        let v = core::mem::take(&mut self.now.state.v);
-        self.now.state.v.clone_from(&self.recorder.before.state.v);
-        self.tape_of_all();
-        let mut before = core::mem::take(&mut self.switcher.conditions);
-        before.clear();
-        before.extend((d.branches.iter()).map(|branch| match branch.after_solve {
+        let conditions = (d.branches.iter()).map(|branch| match branch.after_solve {
             true => 0.0,
             false => self.dynamics.motion(branch.guard).value(),
-        }));
-        let speeds = v.iter().chain(&self.now.state.v);
+        });
+        self.switcher.conditions.extend(conditions);
+    }
+
+    /// Puts branches on their sides that an impact has moved them to; what it has moved to their borders is balanced.
+    pub(super) fn take_sides_after_impact(&mut self, facts: &mut SwitchFacts) {
+        if self.switcher.conditions.is_empty() {
+            return;
+        }
+        let before = core::mem::take(&mut self.switcher.conditions);
+        let speeds = self.now.state.v.iter();
         let fastest = speeds.fold(0.0_f64, |fastest, v| fastest.max(v.value().abs()));
-        self.now.state.v = v;
         self.take_sides(|b, guard| {
             if guard == before[b] {
                 return None;
             }
-            let vanishes = guard.abs() <= rounding::<T>(ROUNDING) * before[b].abs().max(fastest);
+            let size = before[b].abs().max(fastest);
+            let vanishes = guard.abs() <= rounding::<T>(ROUNDING) * size;
             facts.balanced[b] |= vanishes;
             (!vanishes).then_some(guard > 0.0)
         });

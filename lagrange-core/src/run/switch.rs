@@ -267,6 +267,7 @@ impl<T: Scalar> Run<T> {
     fn hit(&mut self, facts: &mut SwitchFacts) -> Result<bool, Error> {
         let d = self.description();
         self.evaluate_all_rows()?;
+        self.note_conditions();
         for c in (0..d.contacts.len()).filter(|&c| !self.now.mode.contacts[c]) {
             if !facts.arriving[c] {
                 continue;
@@ -314,13 +315,17 @@ impl<T: Scalar> Run<T> {
         }
         self.switcher.near = near;
         solved?;
-        let outcome = core::mem::take(&mut self.switcher.collider.outcome);
+        let mut outcome = core::mem::take(&mut self.switcher.collider.outcome);
         self.now.state.v.copy_from_slice(&outcome.v);
         self.log_impacts(&outcome, facts);
         self.after_impact(&outcome, facts);
-        let closed = self.close_accumulated(&outcome, facts);
+        let accumulated = self.close_accumulated(&outcome, facts);
+        if let Ok(true) = accumulated {
+            let rest = &self.switcher.collider.rest;
+            outcome.impulses.clone_from(&rest.impulses);
+        }
         self.switcher.collider.outcome = outcome;
-        closed?;
+        accumulated?;
         Ok(true)
     }
 
