@@ -46,12 +46,21 @@ impl<S: System> Clone for Simulation<'_, S> {
 }
 
 /// A run that ended early, with everything up to there.
-#[derive(Debug)]
 pub struct Failure<T: Scalar = f64> {
     /// Why.
     pub error: Error,
     /// The motion until then.
     pub trajectory: Box<Trajectory<T>>,
+}
+
+/// What `unwrap` shows: the sentence of the error, and how far the run came.
+impl<T: Scalar> fmt::Debug for Failure<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Failure")
+            .field("error", &format_args!("{}", self.error))
+            .field("trajectory", &self.trajectory)
+            .finish()
+    }
 }
 
 impl<T: Scalar> fmt::Display for Failure<T> {

@@ -221,6 +221,33 @@ fn a_limit_keeps_the_trajectory_so_far() {
     ));
 }
 
+/// What `unwrap` prints of it is a sentence and a summary, however long the run was.
+#[test]
+fn a_failure_is_shown_in_short() {
+    let scene = BouncingBall::default();
+    let failure = Simulation::new(&scene)
+        .tolerance(1e-12)
+        .max_events(50)
+        .run(lagrange_tests::first_start(&scene), 0.0..1e3)
+        .expect_err("bounces more often");
+    let shown = format!("{failure:?}");
+    let trajectory = &failure.trajectory;
+    for part in [
+        failure.error.to_string(),
+        format!("last_time: {:?}", trajectory.last_time()),
+        format!("steps: {}", trajectory.work().steps),
+        format!("events: {}", trajectory.events().len()),
+        "is hit".to_owned(),
+    ] {
+        assert!(shown.contains(&part), "{part} in {shown}");
+    }
+    assert!(shown.len() < 400, "{shown}");
+    // A run that could not begin has done nothing.
+    let failure = Simulation::new(&scene).run(State::new(vec![1.0], vec![]), 0.0..1.0);
+    let shown = format!("{:?}", failure.expect_err("no velocity"));
+    assert!(shown.contains("steps: 0, events: 0, .."), "{shown}");
+}
+
 #[test]
 fn an_empty_span_is_the_start() {
     let scene = shell();
