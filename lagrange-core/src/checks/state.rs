@@ -3,7 +3,7 @@
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::effects::Effects;
 use crate::error::Error;
-use crate::handle::{ContactId, FrictionId};
+use crate::handle::{ContactId, FrictionId, named, named_mut};
 use crate::mode::{FrictionMode, Mode, Sliding};
 use crate::modes::guard;
 use crate::modes::redundant::RedundantForces;
@@ -51,28 +51,32 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
 
     /// In a mode where this contact is closed.
     #[must_use]
+    #[track_caller]
     pub fn closed(mut self, contact: ContactId) -> Self {
-        self.mode.contacts[contact.0] = true;
+        *named_mut(&mut self.mode.contacts, contact.0, "contact") = true;
         self
     }
 
     /// In a mode where this friction sticks (and its contact is closed).
     #[must_use]
+    #[track_caller]
     pub fn sticks(mut self, friction: FrictionId) -> Self {
-        self.mode.frictions[friction.0] = FrictionMode::Stick;
+        *named_mut(&mut self.mode.frictions, friction.0, "friction") = FrictionMode::Stick;
         self.close_under(friction)
     }
 
     /// In modes where this friction slips, to the side that the state has (and its contact is closed).
     #[must_use]
+    #[track_caller]
     pub fn slips(mut self, friction: FrictionId) -> Self {
         self.slipping.push(friction.0);
         self.close_under(friction)
     }
 
+    #[track_caller]
     fn close_under(mut self, friction: FrictionId) -> Self {
         let d = self.scene.description();
-        let contact = match d.frictions[friction.0].normal {
+        let contact = match named(d.frictions, friction.0, "friction").normal {
             Normal::Contact(contact) => Some(contact),
             normal => (normal.constraints(d).next()).and_then(|i| d.constraints[i].while_contact),
         };

@@ -304,6 +304,18 @@ fn is_single<T: Scalar>() -> bool {
     epsilon::<T>() > f64::EPSILON
 }
 
+/// Refuses a handle that names nothing in this system: its index is not below the number of items of its kind.
+fn check_place(what: &'static str, (index, count): (usize, usize)) -> Result<(), Error> {
+    if index < count {
+        return Ok(());
+    }
+    Err(Error::Argument {
+        what,
+        value: index as f64,
+        expected: "less than this system has items of its kind; the handle is one of another system",
+    })
+}
+
 impl Settings {
     /// Checks what the caller set.
     pub(crate) fn check<T: Scalar>(
@@ -338,6 +350,13 @@ impl Settings {
                 value: size * self.tolerance,
                 expected: "positive",
             });
+        }
+        for item in self.effects.left_out() {
+            check_place("index of the item that is left out", item.place(d))?;
+        }
+        for awaited in &self.last_events {
+            let place = awaited.subject.place(d);
+            check_place("index of the item after whose event the run ends", place)?;
         }
         if let Method::RungeKutta4 { step } | Method::Gauss6 { step } = self.method
             && !(step > 0.0 && step.is_finite())
