@@ -65,6 +65,23 @@ impl Item {
         }
     }
 
+    /// Its index, and how many of its kind there are; it is none of this system if the first is not below the second.
+    pub(crate) fn place(self, description: &Description) -> (usize, usize) {
+        let d = description;
+        match self {
+            Item::Kinetic(i) => (i, d.kinetic.len()),
+            Item::Potential(i) => (i, d.potential.len()),
+            Item::Constraint(i) => (i, d.constraints.len()),
+            Item::Contact(i) => (i, d.contacts.len()),
+            Item::Friction(i) => (i, d.frictions.len()),
+            Item::Force(i) => (i, d.forces.len()),
+            Item::Dissipation(i) => (i, d.dissipations.len()),
+            Item::Observe(i) => (i, d.observes.len()),
+            Item::Stop(i) => (i, d.stops.len()),
+            Item::Mark(i) => (i, d.marks.len()),
+        }
+    }
+
     /// What it is, in a word.
     pub fn kind(self) -> &'static str {
         match self {

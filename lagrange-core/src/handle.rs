@@ -1,7 +1,8 @@
 //! Handles: typed indices of the items of a system, emitted as associated constants (`MassOnWheel::RIM`).
 //!
 //! Each is an index into the table of the same name in [`crate::system::Description`]; the number inside is public, for programs
-//! that work on any system, [`AnySystem`](crate::system::AnySystem), and know no names.
+//! that work on any system, [`AnySystem`](crate::system::AnySystem), and know no names. A handle does not know its system: given to
+//! another one it names what has its place there, and where there is nothing, results panic and say so, and runs are refused.
 
 use crate::effects::Item;
 use crate::system::Description;
@@ -41,6 +42,29 @@ handles! {
     StartId
 }
 
+/// The element that a handle names.
+#[track_caller]
+pub(crate) fn named<'a, X>(list: &'a [X], index: usize, kind: &str) -> &'a X {
+    check(index, list.len(), kind);
+    &list[index]
+}
+
+/// The same, to be changed.
+#[track_caller]
+pub(crate) fn named_mut<'a, X>(list: &'a mut [X], index: usize, kind: &str) -> &'a mut X {
+    check(index, list.len(), kind);
+    &mut list[index]
+}
+
+/// Only a handle of another system names nothing.
+#[track_caller]
+fn check(index: usize, count: usize, kind: &str) {
+    assert!(
+        index < count,
+        "there is no {kind} {index} among {count}, counted from 0: this handle is one of another system"
+    );
+}
+
 /// What an event is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subject {
@@ -67,6 +91,18 @@ impl Subject {
             Subject::Mark(i) => description.marks[i].name,
         }
     }
+
+    /// Its index, and how many of its kind there are; it is none of this system if the first is not below the second.
+    pub(crate) fn place(self, description: &Description) -> (usize, usize) {
+        let d = description;
+        match self {
+            Subject::Contact(i) => (i, d.contacts.len()),
+            Subject::Friction(i) => (i, d.frictions.len()),
+            Subject::Branch(i) => (i, d.branches.len()),
+            Subject::Stop(i) => (i, d.stops.len()),
+            Subject::Mark(i) => (i, d.marks.len()),
+        }
+    }
 }
 
 /// What has a multiplier: a constraint, a contact or a friction.
@@ -82,11 +118,12 @@ pub enum Reaction {
 
 impl Reaction {
     /// Its (first) row.
+    #[track_caller]
     pub(crate) fn row(self, description: &Description) -> usize {
         match self {
-            Reaction::Constraint(i) => description.constraints[i].row,
-            Reaction::Contact(i) => description.contacts[i].row,
-            Reaction::Friction(i) => description.frictions[i].row,
+            Reaction::Constraint(i) => named(description.constraints, i, "constraint").row,
+            Reaction::Contact(i) => named(description.contacts, i, "contact").row,
+            Reaction::Friction(i) => named(description.frictions, i, "friction").row,
         }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Within one mode the equations of motion are smooth; the guards say where it ends.
 
-use crate::handle::{ContactId, FrictionId};
+use crate::handle::{ContactId, FrictionId, named};
 use crate::system::Description;
 use core::fmt;
 
@@ -115,18 +115,24 @@ impl Mode {
     }
 
     /// Whether a contact is closed.
+    #[track_caller]
     pub fn closed(&self, contact: ContactId) -> bool {
-        self.contacts[contact.0]
+        *named(&self.contacts, contact.0, "contact")
     }
 
     /// Whether a friction sticks.
+    #[track_caller]
     pub fn sticks(&self, friction: FrictionId) -> bool {
-        self.frictions[friction.0] == FrictionMode::Stick
+        *named(&self.frictions, friction.0, "friction") == FrictionMode::Stick
     }
 
     /// Whether a friction slips.
+    #[track_caller]
     pub fn slips(&self, friction: FrictionId) -> bool {
-        matches!(self.frictions[friction.0], FrictionMode::Slip(_))
+        matches!(
+            named(&self.frictions, friction.0, "friction"),
+            FrictionMode::Slip(_)
+        )
     }
 
     /// Whether branch `index` is on its `then` side.

@@ -1,7 +1,7 @@
 //! States, and what is kept of them.
 
 use crate::error::Error;
-use crate::handle::{CoordinateId, StartId};
+use crate::handle::{CoordinateId, StartId, named, named_mut};
 use crate::system::{Coordinate, Description, System};
 use core::fmt;
 use nalgebra::{DVectorView, Scalar};
@@ -31,15 +31,17 @@ impl<T> State<T> {
 
     /// The same with another position of a coordinate.
     #[must_use]
+    #[track_caller]
     pub fn with_q(mut self, coordinate: CoordinateId, q: T) -> Self {
-        self.q[coordinate.0] = q;
+        *named_mut(&mut self.q, coordinate.0, "coordinate") = q;
         self
     }
 
     /// The same with another velocity of a coordinate.
     #[must_use]
+    #[track_caller]
     pub fn with_v(mut self, coordinate: CoordinateId, v: T) -> Self {
-        self.v[coordinate.0] = v;
+        *named_mut(&mut self.v, coordinate.0, "coordinate") = v;
         self
     }
 }
@@ -63,13 +65,15 @@ impl<T> State<T> {
 
 impl<T: Copy> State<T> {
     /// Position of a coordinate.
+    #[track_caller]
     pub fn q(&self, coordinate: CoordinateId) -> T {
-        self.q[coordinate.0]
+        *named(&self.q, coordinate.0, "coordinate")
     }
 
     /// Velocity of a coordinate.
+    #[track_caller]
     pub fn v(&self, coordinate: CoordinateId) -> T {
-        self.v[coordinate.0]
+        *named(&self.v, coordinate.0, "coordinate")
     }
 }
 
@@ -129,7 +133,9 @@ impl<T: fmt::Debug> fmt::Debug for State<T> {
 /// The states that a system can start from.
 pub trait Starts: System {
     /// The state of a named start at time 0.
+    #[track_caller]
     fn at(&self, start: StartId) -> State<Self::Scalar> {
+        named(self.description().starts, start.0, "start");
         let mut state = self.state();
         let zero = Self::Scalar::default();
         System::start(self, start.0, zero, &mut state.q, &mut state.v);

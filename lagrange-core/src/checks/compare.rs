@@ -15,7 +15,7 @@ pub struct Comparison {
     pub tolerance: f64,
     /// Where they differ most.
     pub worst: Worst,
-    /// (name, value) there: parameters, coordinates, velocities.
+    /// (name, value) there: parameters, coordinates, velocities, the time `t`.
     pub state: Vec<(String, f64)>,
     /// The mode there, `shell closed`.
     pub mode: String,
@@ -126,7 +126,7 @@ impl<S: System<Scalar = f64>> Checks<'_, S> {
     }
 }
 
-/// (name, value) of parameters, coordinates and velocities.
+/// (name, value) of parameters, coordinates, velocities and the time.
 fn numbers<S: System<Scalar = f64>>(scene: &S, now: &Instant<f64>) -> Vec<(String, f64)> {
     let d = scene.description();
     let mut state = Vec::new();
@@ -139,5 +139,6 @@ fn numbers<S: System<Scalar = f64>>(scene: &S, now: &Instant<f64>) -> Vec<(Strin
     for (coordinate, &v) in d.coordinates.iter().zip(&now.state.v) {
         state.push((format!("der({})", coordinate.name), v));
     }
+    state.push(("t".to_owned(), now.time));
     state
 }

@@ -64,7 +64,7 @@ pub enum Outcome {
     },
 }
 
-/// Compares what is derived with a formula at the random states of [`Checks`], and panics with the worst state if they
+/// Compares what is derived with a formula at the random states and times of [`Checks`], and panics with the worst state if they
 /// differ: `assert_matches!(checks, |scene, now| derived => by_hand)`.
 #[macro_export]
 macro_rules! assert_matches {

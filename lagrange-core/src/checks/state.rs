@@ -3,17 +3,19 @@
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::effects::Effects;
 use crate::error::Error;
-use crate::handle::{ContactId, FrictionId};
+use crate::handle::{ContactId, FrictionId, named, named_mut};
 use crate::mode::{FrictionMode, Mode, Sliding};
 use crate::modes::guard;
 use crate::modes::redundant::RedundantForces;
 use crate::system::{Normal, System};
 use crate::trajectory::{Instant, State, instant, report_everything};
 use core::borrow::Borrow;
+use core::ops::Range;
 
-/// Where formulas are compared: a mode, and how its states are drawn.
+/// Where formulas are compared: a mode, and how its states and their times are drawn.
 ///
-/// Contacts that are not closed are open, and frictions that are not said to stick or slip do not act.
+/// Contacts that are not closed are open, and frictions that are not said to stick or slip do not act. What is drawn depends on the
+/// [seed](Self::seed) alone, so that a check that passes once passes always.
 #[derive(Clone, Debug)]
 pub struct Checks<'a, S: System<Scalar = f64>> {
     pub(super) scene: &'a S,
@@ -21,6 +23,7 @@ pub struct Checks<'a, S: System<Scalar = f64>> {
     slipping: Vec<usize>,
     around: State<f64>,
     spread: f64,
+    times: Range<f64>,
     variation: f64,
     seed: u64,
     pub(super) states: usize,
@@ -28,7 +31,7 @@ pub struct Checks<'a, S: System<Scalar = f64>> {
 }
 
 impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
-    /// 100 states around zero with a spread of 1, all contacts open, tolerance 1e-9.
+    /// 100 states around zero with a spread of 1, at times from 0 to 1 s, all contacts open, tolerance 1e-9.
     pub fn new(scene: &'a S) -> Self {
         let d = scene.description();
         let n = d.coordinates.len();
@@ -38,6 +41,7 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
             slipping: Vec::new(),
             around: State::new(vec![0.0; n], vec![0.0; n]),
             spread: 1.0,
+            times: 0.0..1.0,
             variation: 0.0,
             seed: 1,
             states: 100,
@@ -47,28 +51,32 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
 
     /// In a mode where this contact is closed.
     #[must_use]
+    #[track_caller]
     pub fn closed(mut self, contact: ContactId) -> Self {
-        self.mode.contacts[contact.0] = true;
+        *named_mut(&mut self.mode.contacts, contact.0, "contact") = true;
         self
     }
 
     /// In a mode where this friction sticks (and its contact is closed).
     #[must_use]
+    #[track_caller]
     pub fn sticks(mut self, friction: FrictionId) -> Self {
-        self.mode.frictions[friction.0] = FrictionMode::Stick;
+        *named_mut(&mut self.mode.frictions, friction.0, "friction") = FrictionMode::Stick;
         self.close_under(friction)
     }
 
     /// In modes where this friction slips, to the side that the state has (and its contact is closed).
     #[must_use]
+    #[track_caller]
     pub fn slips(mut self, friction: FrictionId) -> Self {
         self.slipping.push(friction.0);
         self.close_under(friction)
     }
 
+    #[track_caller]
     fn close_under(mut self, friction: FrictionId) -> Self {
         let d = self.scene.description();
-        let contact = match d.frictions[friction.0].normal {
+        let contact = match named(d.frictions, friction.0, "friction").normal {
             Normal::Contact(contact) => Some(contact),
             normal => (normal.constraints(d).next()).and_then(|i| d.constraints[i].while_contact),
         };
@@ -89,6 +97,14 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
     #[must_use]
     pub fn spread(mut self, spread: f64) -> Self {
         self.spread = spread;
+        self
+    }
+
+    /// Draws the time of every state from this range, s; `2.0..2.0` is one instant. Where what drives the system changes later than
+    /// in the first second, say so: a formula is only held against what it is there.
+    #[must_use]
+    pub fn times(mut self, times: Range<f64>) -> Self {
+        self.times = times;
         self
     }
 
@@ -138,17 +154,19 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
                 .collect()
         };
         let (mut q, mut v) = (near(&self.around.q), near(&self.around.v));
+        let Range { start, end } = self.times;
+        let time = start + (end - start) * random.f64();
         let mut dynamics = Dynamics::new(&scene, &Effects::all());
         report_everything(&mut dynamics);
         dynamics.set_mode(&self.mode);
-        let outcome = dynamics.project(0.0, &mut q, &mut v, 0.0);
-        outcome.map_err(|e| Error::from_evaluation(e, 0.0, &self.mode, d))?;
+        let outcome = dynamics.project(time, &mut q, &mut v, 0.0);
+        outcome.map_err(|e| Error::from_evaluation(e, time, &self.mode, d))?;
         let state = State::new(q, v);
         let mut mode = self.mode.clone();
-        let outcome = self.settle(&mut dynamics, &state, &mut mode);
-        outcome.map_err(|e| Error::from_evaluation(e, 0.0, &mode, d))?;
-        let now = instant(&mut dynamics, &mut RedundantForces::default(), 0.0, &state);
-        let now = now.map_err(|e| Error::from_evaluation(e, 0.0, &mode, d))?;
+        let outcome = self.settle(&mut dynamics, time, &state, &mut mode);
+        outcome.map_err(|e| Error::from_evaluation(e, time, &mode, d))?;
+        let now = instant(&mut dynamics, &mut RedundantForces::default(), time, &state);
+        let now = now.map_err(|e| Error::from_evaluation(e, time, &mode, d))?;
         Ok((scene, now))
     }
 
@@ -156,6 +174,7 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
     fn settle(
         &self,
         dynamics: &mut Dynamics<f64>,
+        time: f64,
         state: &State<f64>,
         mode: &mut Mode,
     ) -> Result<(), EvaluationError> {
@@ -163,7 +182,7 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
         for round in 0..2 + d.branches.len() {
             let needs = guard::all_row_needs(d, dynamics.motion_needs());
             dynamics.set_extra_needs(&needs);
-            dynamics.value(0.0, &state.q, &state.v)?;
+            dynamics.value(time, &state.q, &state.v)?;
             let before = mode.clone();
             for &f in &self.slipping {
                 mode.frictions[f] = FrictionMode::Slip(sliding(dynamics, f));
@@ -178,7 +197,7 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
             }
             dynamics.set_mode(mode);
         }
-        dynamics.value_along(0.0, &state.q, &state.v)
+        dynamics.value_along(time, &state.q, &state.v)
     }
 }
 

@@ -3,6 +3,7 @@
 use super::Checks;
 use crate::assert_matches;
 use crate::prelude::*;
+use core::cell::RefCell;
 
 #[derive(Lagrangian, Clone)]
 #[lagrange(
@@ -73,6 +74,63 @@ fn a_wrong_formula_is_told_with_its_worst_state() {
         text.contains("worst of 40 states, shell closed) at mass = 1.2, "),
         "{text}"
     );
+}
+
+/// A mass on a spring, on a table that is shaken.
+#[derive(Lagrangian, Clone)]
+#[lagrange(
+    coordinates(x),
+    define(place = x + amplitude * sin(omega * t)),
+    kinetic   = mass/2 * der(place)^2,
+    potential = stiffness/2 * x^2,
+)]
+struct Shaken {
+    mass: f64,
+    stiffness: f64,
+    amplitude: f64,
+    omega: f64,
+}
+
+const SHAKEN: Shaken = Shaken {
+    mass: 1.2,
+    stiffness: 30.0,
+    amplitude: 0.1,
+    omega: 5.0,
+};
+
+#[test]
+fn a_wrong_term_of_time_is_found() {
+    // m (ẍ − A ω² sin ωt) = −k x; the wrong one turns twice as fast, which cannot be seen where the sine is zero.
+    let swings = |turns: f64| {
+        move |s: &Shaken, now: &Instant<f64>| {
+            let pushed = s.amplitude * s.omega.powi(2) * (turns * s.omega * now.time).sin();
+            (
+                now.a(Shaken::X),
+                pushed - s.stiffness / s.mass * now.q(Shaken::X),
+            )
+        }
+    };
+    let checks = Checks::new(&SHAKEN).vary_parameters(0.3);
+    let late = checks.clone().times(100.0..200.0);
+    for checks in [&checks, &late] {
+        assert!(checks.compare(swings(1.0)).unwrap().holds());
+        assert!(!checks.compare(swings(2.0)).unwrap().holds());
+    }
+    let times = |checks: Checks<'_, Shaken>| {
+        let times = RefCell::new(Vec::new());
+        let outcome = checks.compare(|_, now| {
+            times.borrow_mut().push(now.time);
+            (0.0, 0.0)
+        });
+        outcome.unwrap();
+        times.into_inner()
+    };
+    assert_eq!(times(checks.clone()), times(checks.clone()));
+    assert!(times(late).iter().all(|t| (100.0..200.0).contains(t)));
+    let still = checks.times(0.0..0.0);
+    assert!(still.compare(swings(2.0)).unwrap().holds());
+    let text = still.compare(swings(2.0)).unwrap().to_string();
+    assert!(text.ends_with(", t = 0"), "{text}");
 }
 
 #[test]

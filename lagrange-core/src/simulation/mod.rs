@@ -46,12 +46,21 @@ impl<S: System> Clone for Simulation<'_, S> {
 }
 
 /// A run that ended early, with everything up to there.
-#[derive(Debug)]
 pub struct Failure<T: Scalar = f64> {
     /// Why.
     pub error: Error,
     /// The motion until then.
     pub trajectory: Box<Trajectory<T>>,
+}
+
+/// What `unwrap` shows: the sentence of the error, and how far the run came.
+impl<T: Scalar> fmt::Debug for Failure<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Failure")
+            .field("error", &format_args!("{}", self.error))
+            .field("trajectory", &self.trajectory)
+            .finish()
+    }
 }
 
 impl<T: Scalar> fmt::Display for Failure<T> {
@@ -295,6 +304,18 @@ fn is_single<T: Scalar>() -> bool {
     epsilon::<T>() > f64::EPSILON
 }
 
+/// Refuses a handle that names nothing in this system: its index is not below the number of items of its kind.
+fn check_place(what: &'static str, (index, count): (usize, usize)) -> Result<(), Error> {
+    if index < count {
+        return Ok(());
+    }
+    Err(Error::Argument {
+        what,
+        value: index as f64,
+        expected: "less than this system has items of its kind; the handle is one of another system",
+    })
+}
+
 impl Settings {
     /// Checks what the caller set.
     pub(crate) fn check<T: Scalar>(
@@ -329,6 +350,13 @@ impl Settings {
                 value: size * self.tolerance,
                 expected: "positive",
             });
+        }
+        for item in self.effects.left_out() {
+            check_place("index of the item that is left out", item.place(d))?;
+        }
+        for awaited in &self.last_events {
+            let place = awaited.subject.place(d);
+            check_place("index of the item after whose event the run ends", place)?;
         }
         if let Method::RungeKutta4 { step } | Method::Gauss6 { step } = self.method
             && !(step > 0.0 && step.is_finite())

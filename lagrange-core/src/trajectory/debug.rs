@@ -1,6 +1,7 @@
-//! Results as `{:?}` shows them: every number by the name that it has in the declaration.
+//! Results as `{:?}` shows them: every number by the name that it has in the declaration, and of a whole run a summary.
 
-use super::{Event, Instant};
+use super::{Event, Instant, Trajectory};
+use crate::arithmetic::Scalar;
 use crate::system::Description;
 use core::fmt::{Debug, Formatter, Result};
 
@@ -101,5 +102,22 @@ impl<T: Debug> Debug for Event<T> {
             .field("ambiguous", &self.ambiguous)
             .field("other_impacts", &self.other_impacts)
             .finish()
+    }
+}
+
+/// What can be read in a line: a run of a second may have megabytes of coefficients.
+impl<T: Scalar> Debug for Trajectory<T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let mut summary = f.debug_struct("Trajectory");
+        summary
+            .field("system", &self.system)
+            .field("first_time", &self.first_time())
+            .field("last_time", &self.last_time())
+            .field("steps", &self.work().steps)
+            .field("events", &self.events().len());
+        if let Some(last) = self.events().last() {
+            summary.field("last_event", &format_args!("{last}"));
+        }
+        summary.finish_non_exhaustive()
     }
 }

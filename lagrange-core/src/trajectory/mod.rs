@@ -98,7 +98,9 @@ pub(crate) struct Segment<T> {
 }
 
 /// The motion of a system over a time interval: polynomials in time, modes, events, work. It is that of any system with numbers `T`.
-#[derive(Clone, Debug)]
+///
+/// `{}` tells its events, a line for each; `{:?}` is a summary.
+#[derive(Clone)]
 pub struct Trajectory<T: Scalar = f64> {
     pub(crate) system: Erased<T>,
     pub(crate) effects: Effects,

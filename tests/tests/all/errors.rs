@@ -5,6 +5,9 @@ use lagrange_core::prelude::*;
 use lagrange_problems::scenes::hard::BouncingBall;
 use lagrange_problems::scenes::{Kepler, MassOnShell, MassOnWheel, RollingSphere};
 use lagrange_tests::agree;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
 
 fn shell() -> MassOnShell {
     MassOnShell::default()
@@ -219,6 +222,58 @@ fn a_limit_keeps_the_trajectory_so_far() {
         failure.trajectory.sampler().at(last + 1.0),
         Err(Error::OutsideTrajectory { .. })
     ));
+}
+
+/// The chapter of the book on errors has a row for each of them, and for no other.
+#[test]
+fn the_book_lists_every_error() {
+    let read = |path: &str| {
+        let core = Path::new(env!("CARGO_MANIFEST_DIR")).join("../lagrange-core/src");
+        fs::read_to_string(core.join(path)).expect("text")
+    };
+    let source = read("error.rs");
+    let variants = source.split("pub enum Error {").nth(1).expect("the errors");
+    let variants = variants.split("\n}").next().expect("their end").lines();
+    let variants = variants.filter_map(|line| line.strip_prefix("    "));
+    let variants: BTreeSet<&str> = variants
+        .filter(|line| line.starts_with(|c: char| c.is_ascii_uppercase()))
+        .map(|line| line.trim_end_matches([' ', '{', ',']))
+        .collect();
+    let book = read("book/errors.md");
+    let rows = book.lines().filter_map(|line| line.strip_prefix("| `"));
+    let listed: BTreeSet<&str> = rows
+        .filter_map(|row| row.split("` |").next())
+        .flat_map(|names| names.split("`, `"))
+        .collect();
+    assert!(variants.len() > 20, "{variants:?}");
+    assert_eq!(listed, variants);
+}
+
+/// What `unwrap` prints of it is a sentence and a summary, however long the run was.
+#[test]
+fn a_failure_is_shown_in_short() {
+    let scene = BouncingBall::default();
+    let failure = Simulation::new(&scene)
+        .tolerance(1e-12)
+        .max_events(50)
+        .run(lagrange_tests::first_start(&scene), 0.0..1e3)
+        .expect_err("bounces more often");
+    let shown = format!("{failure:?}");
+    let trajectory = &failure.trajectory;
+    for part in [
+        failure.error.to_string(),
+        format!("last_time: {:?}", trajectory.last_time()),
+        format!("steps: {}", trajectory.work().steps),
+        format!("events: {}", trajectory.events().len()),
+        "is hit".to_owned(),
+    ] {
+        assert!(shown.contains(&part), "{part} in {shown}");
+    }
+    assert!(shown.len() < 400, "{shown}");
+    // A run that could not begin has done nothing.
+    let failure = Simulation::new(&scene).run(State::new(vec![1.0], vec![]), 0.0..1.0);
+    let shown = format!("{:?}", failure.expect_err("no velocity"));
+    assert!(shown.contains("steps: 0, events: 0, .."), "{shown}");
 }
 
 #[test]

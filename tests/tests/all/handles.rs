@@ -4,6 +4,7 @@ use super::systems::state;
 use lagrange_core::prelude::*;
 use lagrange_problems::scenes::MassOnWheel;
 use lagrange_tests::{agree, closure};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 type Wheel = MassOnWheel;
 
@@ -146,6 +147,49 @@ fn runs_end_after_what_handles_name() {
     assert_eq!(ends(both), lost);
     let floor = (Subject::from(Wheel::FLOOR), EventKind::Stop);
     assert_eq!(ends(simulation().end_after(Wheel::FLOOR)), floor);
+}
+
+/// The wheel has four coordinates, a friction and a stop, the ball one coordinate and neither of the others: handles of the wheel that name nothing of the ball are told.
+#[test]
+fn a_handle_of_another_system_is_refused() {
+    let ball = Ball {
+        gravity: 9.81,
+        bounce: 0.5,
+    };
+    let run = Simulation::new(&ball).run(ball.at(Ball::HELD), 0.0..0.1);
+    let run = run.expect("a run");
+    let ask: [(&str, &dyn Fn()); 4] = [
+        ("coordinate 3 among 1", &|| {
+            run.final_state().q(Wheel::THETA);
+        }),
+        ("coordinate 3 among 1", &|| {
+            let _ = ball.state().with_v(Wheel::THETA, 1.0);
+        }),
+        ("friction 0 among 0", &|| {
+            let now = run.sampler().at(0.0).expect("the start");
+            now.force(Wheel::GRIP);
+        }),
+        ("start 1 among 1", &|| {
+            ball.at(StartId(1));
+        }),
+    ];
+    for (what, ask) in ask {
+        let told = catch_unwind(AssertUnwindSafe(ask)).expect_err("a panic");
+        let told = told.downcast::<String>().expect("a sentence");
+        let expected =
+            format!("there is no {what}, counted from 0: this handle is one of another system");
+        assert_eq!(*told, expected);
+    }
+    let refused = |simulation: Simulation<'_, Ball>| {
+        let outcome = simulation.run(ball.at(Ball::HELD), 0.0..0.1);
+        let error = outcome.expect_err("no such item").error;
+        assert!(
+            matches!(error, Error::Argument { value: 0.0, .. }),
+            "{error}"
+        );
+    };
+    refused(Simulation::new(&ball).effects(Effects::all().without(Wheel::GRIP)));
+    refused(Simulation::new(&ball).end_after(Wheel::FLOOR));
 }
 
 /// A ball that bounces.

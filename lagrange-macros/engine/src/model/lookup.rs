@@ -102,8 +102,16 @@ impl Elaboration<'_> {
             _ => (self.value(base, context)?, 0),
         };
         let Value::List(mut elements) = value else {
-            let hint =
-                format!("`{base}` is one number; take the index away, or declare it as a list");
+            let hint = match &base.kind {
+                ExprKind::Call(name, _) if name.text == "cross" => {
+                    "`cross` of two lists of two is one number, a₀b₁ − a₁b₀; take the index away"
+                        .to_owned()
+                }
+                ExprKind::Name(_) => {
+                    format!("`{base}` is one number; take the index away, or declare it as a list")
+                }
+                _ => format!("`{base}` is one number; take the index away"),
+            };
             self.sink.report(Code::ScalarForList, base.extent, &[&hint]);
             return None;
         };
