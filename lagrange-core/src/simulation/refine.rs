@@ -147,7 +147,9 @@ impl<T: Runnable> Work<T> {
                 let looser = settings.finer::<T>(LOOSER);
                 let (near, outcome) = self.another(&looser, start, span.clone());
                 let difference = near.difference(self);
-                if outcome.is_ok() && difference.error() <= SHARE * error {
+                let apart = difference.error();
+                // It is more exact than that, for as long as differences fall.
+                if outcome.is_ok() && apart <= error && apart * FALLS <= best {
                     self.trajectory.estimate = Some(looser.estimate(difference));
                     return Ok(());
                 }
