@@ -954,7 +954,7 @@ fn friction_does_not_push() {
         ),
     ] {
         for method in lagrange_tests::fuzz::METHODS {
-            let simulation = Simulation::new(&scene).method(method.parse().expect("a method"));
+            let simulation = Simulation::new(&scene).method(method);
             let failure = simulation.run(scene.at(Lightened::GO), 0.0..3.0);
             let failure = failure.expect_err("it would push");
             let Error::Domain {
@@ -968,7 +968,12 @@ fn friction_does_not_push() {
             assert_eq!(found, item, "{method}");
             assert!(number == what || number == "static friction", "{number}");
             // All three are nothing where it is 0.4 m on.
-            agree(method, failure.trajectory.final_state().q[0], 0.4, 1e-5);
+            agree(
+                &method.to_string(),
+                failure.trajectory.final_state().q[0],
+                0.4,
+                1e-5,
+            );
         }
         let begins = Lightened {
             weight: -1.0,

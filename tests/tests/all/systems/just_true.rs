@@ -298,9 +298,9 @@ fn marks_at_a_surface_are_passed_once_a_blow() {
         bounce: 0.5,
     };
     let fall = (2.0_f64 / ball.gravity).sqrt();
-    for method in lagrange_tests::fuzz::METHODS {
+    for method in lagrange_tests::fuzz::METHODS.map(|method| method.to_string()) {
         let motion =
-            lagrange_tests::run_by(&ball, (method, 1e-9), ball.at(Bouncing::DROP), 2.3 * fall);
+            lagrange_tests::run_by(&ball, (&method, 1e-9), ball.at(Bouncing::DROP), 2.3 * fall);
         let times = |kind: EventKind, name: &str| -> Vec<f64> {
             let events = motion.events().iter();
             let own =

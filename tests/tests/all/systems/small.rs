@@ -53,12 +53,12 @@ fn impacts_with_constraints_do_not_depend_on_the_unit_of_mass() {
     kinetic = mass/2*der(x)^2,
     force(drawn: x = -pull),
     contact(pad: x >= 0),
-    start(up: x = gap),
+    start(up: x = height),
 )]
 struct Switch {
     mass: f64,
     pull: f64,
-    gap: f64,
+    height: f64,
 }
 
 /// A start is closed by no more than its absolute tolerance.
@@ -67,10 +67,10 @@ fn what_is_open_by_half_a_micrometre_is_open() {
     let switch = Switch {
         mass: 1e-11,
         pull: 8e-7,
-        gap: 5e-7,
+        height: 5e-7,
     };
-    let time = (2.0 * switch.gap * switch.mass / switch.pull).sqrt();
-    for method in METHODS {
+    let time = (2.0 * switch.height * switch.mass / switch.pull).sqrt();
+    for method in METHODS.map(|method| method.to_string()) {
         let simulation = Simulation::new(&switch)
             .method(method.parse().expect("a method"))
             .tolerance(1e-6)
@@ -78,6 +78,6 @@ fn what_is_open_by_half_a_micrometre_is_open() {
         let motion = simulation.run(switch.at(Switch::UP), 0.0..2.0 * time);
         let motion = motion.expect("it closes");
         let closes = event(&motion, "pad", "impact").time;
-        agree(method, closes / time, 1.0, 1e-6);
+        agree(&method, closes / time, 1.0, 1e-6);
     }
 }
