@@ -16,6 +16,9 @@ const LARGE: f64 = 10.0;
 /// and grew in each of so many steps before it ends, grows without bound.
 const STEPS: usize = 4;
 
+/// Friction does not make it where it is more than this share of it without.
+const BY_ITSELF: f64 = 0.5;
+
 impl<T: Scalar> Run<T> {
     /// The error that names the contact whose force grows without bound, if that is why the motion came to this `error`.
     pub(super) fn jammed_contact(&mut self, error: &Error) -> Option<Error> {
@@ -43,7 +46,13 @@ impl<T: Scalar> Run<T> {
             latest.all(|[before, after]| after > before)
                 && force(&looks[looks.len() - 1]) > LARGE * force(&looks[0])
         };
-        let k = (0..pressed.len()).find(grows)?;
+        let grows: Vec<usize> = (0..pressed.len()).filter(grows).collect();
+        let last = &looks[looks.len() - 1];
+        let mut jams = |&k: &usize| {
+            let smooth = self.force_without_friction(pressed[k]);
+            smooth.is_some_and(|smooth| smooth.abs() < BY_ITSELF * last[k].abs())
+        };
+        let k = grows.into_iter().find(|k| jams(k))?;
         Some(Error::Unbounded {
             time: self.now.t.value(),
             mode: self.now.mode.display(d).to_string(),
@@ -51,6 +60,21 @@ impl<T: Scalar> Run<T> {
             from: looks[0][k],
             to: looks[looks.len() - 1][k],
         })
+    }
+
+    /// The force of contact `c` at the present state if nothing rubbed on it.
+    fn force_without_friction(&mut self, c: usize) -> Option<f64> {
+        let d = self.description();
+        let mut mode = self.now.mode.clone();
+        for (friction, state) in d.frictions.iter().zip(&mut mode.frictions) {
+            if matches!(friction.normal, Normal::Contact(on) if on == c) {
+                *state = FrictionMode::Inactive;
+            }
+        }
+        self.dynamics.set_mode(&mode);
+        let State { q, v, .. } = &self.now.state;
+        self.dynamics.value(self.now.t, q, v).ok()?;
+        Some(self.dynamics.force(d.contacts[c].row).value())
     }
 
     /// The forces of these contacts where the present mode began, where each of the last steps in it did, and now. `None` where there are not so
