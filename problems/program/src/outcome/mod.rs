@@ -326,4 +326,12 @@ impl Outcome {
     pub fn last(&self) -> Option<&Sample> {
         self.samples.last()
     }
+
+    /// How long the run is, s.
+    pub fn lasts(&self) -> f64 {
+        match (self.first(), self.last()) {
+            (Some(first), Some(last)) => last.time - first.time,
+            _ => 0.0,
+        }
+    }
 }

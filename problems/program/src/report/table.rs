@@ -84,7 +84,7 @@ fn choices(outcome: &Outcome) -> Option<String> {
     let mut open: Vec<String> = groups
         .iter()
         .filter(|(_, group)| group.iter().any(|event| event.ambiguous))
-        .map(|(_, group)| format!("t = {} s", time(group[0].time)))
+        .map(|(_, group)| format!("t = {} s", time(group[0].time, outcome.lasts())))
         .collect();
     open.dedup();
     let told = match open.len() > FEW {
@@ -276,11 +276,7 @@ impl Column {
         let speeds: Vec<f64> = states
             .filter_map(|state| state.v.get(self.place).copied())
             .collect();
-        let lasts = match (outcome.first(), outcome.last()) {
-            (Some(first), Some(last)) => last.time - first.time,
-            _ => 0.0,
-        };
-        let way = largest(&speeds) * lasts * self.scale;
+        let way = largest(&speeds) * outcome.lasts() * self.scale;
         match largest(&told) < outcome.tolerance * way {
             true => Decimals::of([way]),
             false => Decimals::of(told),
@@ -379,8 +375,9 @@ fn story(outcome: &Outcome) -> Table {
         .map(|column| column.decimals(&lines, outcome))
         .collect();
     let of_forces = decimals_of_forces(&items, &lines, outcome.tolerance);
+    let lasts = outcome.lasts();
     for line in &lines {
-        let mut row = vec![time(line.time)];
+        let mut row = vec![time(line.time, lasts)];
         if estimated {
             row.push(
                 line.error
@@ -566,7 +563,7 @@ impl Decimals {
             .fold(0.0, |largest: f64, value| largest.max(value.abs()));
         match largest {
             0.0 => Decimals::Plain(4),
-            1e-9..1e12 => {
+            1e-4..1e12 => {
                 Decimals::Plain((4.0 - largest.log10().floor()).clamp(0.0, 13.0) as usize)
             }
             _ => Decimals::Scientific,
@@ -587,17 +584,21 @@ impl Decimals {
     }
 }
 
-/// A time, to a microsecond where that has a meaning.
-fn time(t: f64) -> String {
-    match t.abs() < 1e9 {
-        true => format!("{t:.6}"),
+/// A time of a run that `lasts` so long: to a microsecond where that has a meaning, and to as much less as the run is shorter than 10 ms.
+fn time(t: f64, lasts: f64) -> String {
+    let shorter = match lasts > 0.0 && lasts < 1e-2 {
+        true => (-1.0 - lasts.log10()).ceil() as usize,
+        false => 0,
+    };
+    match t.abs() < 1e9 && shorter < 9 {
+        true => format!("{t:.0$}", 6 + shorter),
         false => format!("{t:.9e}"),
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Decimals;
+    use super::{Decimals, time};
     use crate::file::scene;
     use crate::request::Request;
 
@@ -720,5 +721,13 @@ mod tests {
             ["-1.5000e300", "2.0000e0", "0"]
         );
         assert_eq!(Decimals::of([3e-20]).show(3e-20), "3.0000e-20");
+        assert_eq!(Decimals::of([5e-7]).show(5e-7), "5.0000e-7");
+    }
+
+    #[test]
+    fn times_have_the_digits_that_a_short_run_needs() {
+        assert_eq!(time(2.5, 3.0), "2.500000");
+        assert_eq!(time(4.35e-6, 1e-4), "0.000004350");
+        assert_eq!(time(0.0, 0.0), "0.000000");
     }
 }
