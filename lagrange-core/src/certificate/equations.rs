@@ -51,6 +51,8 @@ pub(super) struct Situation<'a> {
     pub forces: &'a [f64],
     /// Values of applied forces, for outputs; empty: zero.
     pub loads: &'a [f64],
+    /// Whether some forces are chosen among others that move the system in the same way.
+    pub shared: bool,
 }
 
 /// A quantity that should vanish or stay positive, by its value.

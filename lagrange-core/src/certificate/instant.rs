@@ -6,6 +6,9 @@ use crate::effects::Item;
 use crate::mode::{Direction, FrictionMode, Mode};
 use crate::trajectory::State;
 
+/// Shares of forces that are not determined are chosen within their bounds to so many digits.
+const SHARED: f64 = 1e-9;
+
 /// Beside its reach a slip in space has no direction below this multiple of the tolerance.
 const VANISHING: f64 = 1e3;
 
@@ -67,11 +70,12 @@ impl Equations {
     /// Checks whether forces are such as a mode allows, in the state that was taken: normal forces not negative, and frictions that stick within their cones.
     pub fn examine_bounds(&mut self, at: Situation<'_>, mode: &Mode, findings: &mut Findings) {
         let blur = self.blur_of_directions(at, mode, findings.tolerance);
+        let shared = if at.shared { SHARED } else { 0.0 };
         for (c, contact) in self.declaration.contacts.iter().enumerate() {
             if self.includes(Item::Contact(c)) && mode.contacts[c] {
                 let (force, name) = (at.forces[self.d.contacts[c].row], self.d.contacts[c].name);
                 let size = self.force_along(contact.gap, Level::Position);
-                let mut beyond = -force - blur;
+                let mut beyond = -force - blur - shared * size;
                 if beyond > 0.0 {
                     beyond -= self.rounding_along(contact.gap, Level::Position, at);
                 }
@@ -87,7 +91,7 @@ impl Equations {
             let (normal, normal_size) = self.normal(f, at.forces);
             let mu = self.values.value(friction.static_coefficient);
             let size = self.force_along_slips(friction.slip) + mu * normal_size;
-            let mut beyond = force - mu * normal - blur;
+            let mut beyond = force - mu * normal - blur - shared * size;
             if beyond > 0.0 {
                 let along = |&slip: &usize| self.rounding_along(slip, Level::Velocity, at);
                 beyond -= friction.slip.iter().map(along).fold(0.0, f64::max);

@@ -520,7 +520,8 @@ impl<T: Scalar> Examination<'_, T> {
         let State { q, v, .. } = &self.scratch;
         let outcome = placed.and_then(|()| dynamics.value_along(time, q, v));
         outcome.map_err(|e| Error::from_evaluation(e, time.value(), mode, d))?;
-        let forces = self.redundant.report(dynamics, &mut Vec::new());
+        let mut undetermined = Vec::new();
+        let forces = self.redundant.report(dynamics, &mut undetermined);
         dynamics.replace_forces(&forces);
         dynamics.report_value();
         let loads = d
@@ -537,6 +538,7 @@ impl<T: Scalar> Examination<'_, T> {
                 jacobi: dynamics.report(d.energy.jacobi).value(),
             },
             rows: forces.len(),
+            shared: undetermined.contains(&true),
             numbers: numbers.chain(loads).collect(),
         })
     }
@@ -671,6 +673,8 @@ struct Reported {
     energies: Energies,
     /// Number of forces.
     rows: usize,
+    /// Whether some of them are chosen among others that move the system in the same way.
+    shared: bool,
     /// Positions, velocities, accelerations, forces and loads.
     numbers: Vec<f64>,
 }
@@ -689,6 +693,7 @@ impl Reported {
             acceleration,
             forces,
             loads,
+            shared: self.shared,
         }
     }
 }

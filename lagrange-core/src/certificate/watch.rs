@@ -278,6 +278,7 @@ impl Watches {
             acceleration: &[],
             forces: &[],
             loads: &[],
+            shared: false,
         };
         self.see(at, mode, false, findings);
         self.state = [q, v];
