@@ -25,7 +25,7 @@ pub enum Error {
         /// The coordinate, contact, friction or field.
         item: &'static str,
         /// What the number is: `value` (of a field), `inertia`, `restitution`, `static friction`, `kinetic friction`, `position at the start`,
-        /// `velocity at the start`.
+        /// `velocity at the start`, `absolute tolerance`.
         what: &'static str,
         /// The number.
         value: f64,

@@ -2,7 +2,7 @@
 
 use crate::dynamics::Equations;
 use crate::effects::Effects;
-use crate::handle::Subject;
+use crate::handle::{CoordinateId, Subject};
 use crate::integrate::{Method, Tolerance, least_size};
 use crate::monitor::Monitor;
 use crate::system::Impacts;
@@ -25,6 +25,8 @@ pub(crate) struct Settings {
     pub effects: Effects,
     pub goal: Goal,
     pub tolerance: f64,
+    /// Absolute tolerances of single coordinates as they were given; `sizes` are made of them.
+    pub absolute: Vec<(CoordinateId, f64)>,
     /// Per coordinate: errors of its position and its velocity are relative above this size and absolute below; empty: 1 for all.
     pub sizes: Vec<f64>,
     pub method: Method,

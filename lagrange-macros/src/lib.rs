@@ -21,7 +21,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 /// # What is emitted
 ///
 /// With the environment variable `LAGRANGE_DUMP=Name` the expansion for the struct `Name` is written, formatted, to a
-/// file of the temporary folder, and the compiler's output says where. (Cargo expands only what it compiles: `touch` the file.)
+/// file of the temporary folder, and the compiler's output says where. Where it says nothing, no struct of that name was expanded: it is written
+/// otherwise, or was compiled before, since cargo expands only what it compiles (`touch` the file). The macro sees one struct at a time and
+/// cannot know that there is none.
 #[proc_macro_derive(Lagrangian, attributes(lagrange))]
 pub fn lagrangian(input: TokenStream) -> TokenStream {
     let input = input.into();

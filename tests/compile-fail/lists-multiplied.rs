@@ -6,4 +6,4 @@
     define(p = [x, y], q = p * p),
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
-//~ 6:32 E313 `the product` of two lists has no single meaning; write `dot(a, b)`, `cross(a, b)`, or single elements
+//~ 6:32 E313 the product of two lists has no single meaning; write `dot(a, b)`, `cross(a, b)`, or single elements

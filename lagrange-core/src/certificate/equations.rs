@@ -84,6 +84,7 @@ impl<'a> Situation<'a> {
             acceleration: &[],
             forces: &[],
             loads: &[],
+            shared: false,
         }
     }
 

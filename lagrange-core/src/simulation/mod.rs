@@ -30,8 +30,6 @@ use core::ops::Range;
 pub struct Simulation<'a, S: System> {
     scene: &'a S,
     settings: Settings,
-    /// Absolute tolerances of single coordinates.
-    absolute: Vec<(CoordinateId, f64)>,
 }
 
 // A derive would ask for systems that are `Clone`.
@@ -40,7 +38,6 @@ impl<S: System> Clone for Simulation<'_, S> {
         Self {
             scene: self.scene,
             settings: self.settings.clone(),
-            absolute: self.absolute.clone(),
         }
     }
 }
@@ -87,6 +84,7 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
                     true => 1e-6,
                     false => 1e-9,
                 },
+                absolute: Vec::new(),
                 sizes: Vec::new(),
                 method: Method::Auto,
                 project_start: false,
@@ -98,7 +96,6 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
                 max_steps: 100_000_000,
                 monitor: None,
             },
-            absolute: Vec::new(),
         }
     }
 
@@ -115,7 +112,7 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
     /// and ODEPACK's `ATOL(i)`. A coordinate in metres that moves by micrometres has one of its own.
     #[must_use]
     pub fn absolute_tolerance(mut self, coordinate: CoordinateId, tolerance: f64) -> Self {
-        self.absolute.push((coordinate, tolerance));
+        self.settings.absolute.push((coordinate, tolerance));
         self
     }
 
@@ -253,10 +250,10 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
             Goal::Tolerance | Goal::Estimate => self.settings.tolerance,
         };
         let mut sizes = Vec::new();
-        if !self.absolute.is_empty() {
+        if !self.settings.absolute.is_empty() {
             sizes.resize(self.scene.description().coordinates.len(), 1.0);
         }
-        for &(CoordinateId(i), absolute) in &self.absolute {
+        for &(CoordinateId(i), absolute) in &self.settings.absolute {
             // What is none of the system is refused when a run begins.
             sizes.resize(sizes.len().max(i + 1), 1.0);
             sizes[i] = absolute / asked;
@@ -343,12 +340,19 @@ impl Settings {
                 found: self.sizes.len(),
             });
         }
-        let mut sizes = self.sizes.iter();
-        if let Some(size) = sizes.find(|&&size| !(size > 0.0 && size.is_finite())) {
-            return Err(Error::Argument {
+        let mut absolute = self.absolute.iter();
+        // A size overflows where the relative tolerance is far smaller.
+        let usable = |&&(CoordinateId(i), value): &&(CoordinateId, f64)| {
+            value > 0.0 && self.sizes[i].is_finite()
+        };
+        if let Some(&(CoordinateId(i), value)) = absolute.find(|given| !usable(given)) {
+            return Err(Error::Domain {
+                time: span.start,
+                item: d.coordinates[i].name,
                 what: "absolute tolerance",
-                value: size * self.tolerance,
-                expected: "positive",
+                value,
+                expected: "positive and finite".to_owned(),
+                fields: Vec::new(),
             });
         }
         for item in self.effects.left_out() {

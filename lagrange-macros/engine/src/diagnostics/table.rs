@@ -82,6 +82,8 @@ table! {
 
     HandleClash "E208" "`{0}` and `{1}` become one constant, `{2}`" "names of coordinates and items become constants in capitals: choose another";
 
+    ConstantOfSystems "E209" "`{0}` becomes the constant `{1}`, which every system has already" "choose another name";
+
     ArgumentCount "E301" "`{0}` takes {1}, not {2}" "";
     ListForScalar "E302" "a list of {0} where a single value is expected" "{1}";
     ScalarForList "E303" "a single value where a list is expected" "{0}";
@@ -94,7 +96,7 @@ table! {
     EmptyRange "E310" "the range {0}..{1} is empty" "the upper bound must be larger than the lower one";
     TooMany "E311" "{0} elements are too many" "a declaration may unroll to {1}";
     Overflow "E312" "the exact numbers here outgrow 38 digits" "pass such numbers as fields of the struct";
-    ListProduct "E313" "`{0}` of two lists has no single meaning" "write `dot(a, b)`, `cross(a, b)`, or single elements";
+    ListProduct "E313" "{0} of two lists has no single meaning" "write `dot(a, b)`, `cross(a, b)`, or single elements";
 
     NoValue "E314" "`{0}` has no value" "the numbers are outside of where it is defined";
     HighPower "E315" "this exponent is too large" "numerators and denominators of exponents go up to {0}";

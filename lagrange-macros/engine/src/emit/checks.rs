@@ -1,34 +1,16 @@
 //! What is known of the checks: `X::CHECKS`, with a line of documentation for each.
 
-use super::handles::{inherent, screaming};
+use super::handles::inherent;
 use super::names::index;
 use crate::check::{Outcome, Verdict};
 use crate::plan::Program;
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
-/// `impl X { pub const CHECKS: … }`; nothing without checks, or where an item has taken the name.
+/// `impl X { pub const CHECKS: … }`; nothing without checks.
 pub fn checks(program: &Program, verdicts: &[Verdict]) -> TokenStream {
     let system = &program.equations.system;
-    let ours = Ident::new("CHECKS", Span::call_site());
-    let coordinates = system.coordinates.iter().map(|c| &c.name);
-    let contacts = system.contacts.iter().map(|c| &c.name);
-    let constraints = system.constraints.iter().map(|c| &c.name);
-    let frictions = system.frictions.iter().map(|f| &f.name);
-    let forces = system.forces.iter().map(|f| &f.name);
-    let others = system.observes.iter().map(|o| &o.name);
-    let starts = system.starts.iter().map(|s| &s.name);
-    let watches = system.stops.iter().chain(&system.marks).map(|w| &w.name);
-    let mut names = coordinates
-        .chain(contacts)
-        .chain(constraints)
-        .chain(frictions)
-        .chain(forces)
-        .chain(others)
-        .chain(starts)
-        .chain(watches);
-    let is_ours = |ident: &Ident| screaming(ident) == ours;
-    if verdicts.is_empty() || names.any(|name| name.ident.as_ref().is_some_and(is_ours)) {
+    if verdicts.is_empty() {
         return TokenStream::new();
     }
     let (name, core) = (&system.name, &system.core);

@@ -1,6 +1,6 @@
 //! Handles: one associated constant for each named item, `MassOnWheel::RIM`, with its equation as documentation.
 
-use crate::model::{ItemName, Normal, System, shouting};
+use crate::model::{CONSTANTS, ItemName, Normal, System, shouting};
 use crate::plan::Program;
 use crate::sorted::SortedSet;
 use proc_macro2::{Ident, TokenStream};
@@ -26,7 +26,7 @@ pub fn handles(program: &Program) -> TokenStream {
     let arguments = system.scalar.as_ref().map(|_| quote!(<f64>));
     let items = items(system);
     let mut constants = Vec::new();
-    let mut taken = SortedSet::new();
+    let mut taken: SortedSet<String> = CONSTANTS.map(str::to_owned).into_iter().collect();
     let mut rest = &items[..];
     while let Some(first) = rest.first() {
         // The elements of an indexed item follow each other.
@@ -46,7 +46,7 @@ pub fn handles(program: &Program) -> TokenStream {
             .element
             .map_or(Indices::One(first.index), |_| Indices::Many(&indices));
         let constant = screaming(ident);
-        // An output may observe a coordinate or an item under its own name.
+        // An output may observe a coordinate or an item under its own name, and may be called as a constant of all systems is.
         if taken.insert(constant.to_string()) || first.kind != "ObserveId" {
             constants.push(handle(core, &constant, first.kind, indices, &first.text));
         }

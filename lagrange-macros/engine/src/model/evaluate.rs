@@ -92,15 +92,18 @@ impl Elaboration<'_> {
         exponent: ExprId,
     ) -> Option<()> {
         let pool = &self.system.pool;
-        let Some(power) = pool.as_number(exponent) else {
-            return Some(());
-        };
-        let zero = pool.is_zero(base) && power.is_zero();
+        let power = pool.as_number(exponent);
+        let zero = pool.is_zero(base) && power.is_some_and(Rational::is_zero);
         let negative = pool.as_number(base).is_some_and(Rational::is_negative);
-        if zero || negative && !power.is_integer() {
+        // An exponent that is not known is not a whole number at all times.
+        let whole = power.is_some_and(Rational::is_integer);
+        if zero || negative && !whole {
             self.sink.report(Code::NoValue, expr.extent, &[expr]);
             return None;
         }
+        let Some(power) = power else {
+            return Some(());
+        };
         let most = i128::from(HIGHEST_POWER);
         if power.numerator().unsigned_abs() > most.unsigned_abs() || power.denominator() > most {
             self.sink.report(Code::HighPower, at, &[&HIGHEST_POWER]);

@@ -32,7 +32,7 @@ impl Elaboration<'_> {
             let law = this.law(&declared.law);
             this.slip = None;
             let (given, at_rest, sliding) = law?;
-            this.sensible(&declared.law, at_rest, sliding)?;
+            this.sensible(&declared.law, given, at_rest, sliding)?;
             let normal = match (on, given) {
                 (Some(on), _) => on?,
                 (None, given) => Normal::Given(given?),
@@ -180,19 +180,34 @@ impl Elaboration<'_> {
         found
     }
 
-    /// Whether coefficients that are numbers can be meant: not negative, and kinetic at most static.
-    fn sensible(&mut self, law: &FrictionLaw, stick: ExprId, slide: ExprId) -> Option<()> {
-        let (first, second) = match law {
-            FrictionLaw::Coefficients { stick, slide, .. } => (&**stick, slide.as_deref()),
+    /// Whether a normal force and coefficients that are numbers can be meant: not negative, and kinetic at most static.
+    fn sensible(
+        &mut self,
+        law: &FrictionLaw,
+        normal: Option<ExprId>,
+        stick: ExprId,
+        slide: ExprId,
+    ) -> Option<()> {
+        let (pressing, first, second) = match law {
+            FrictionLaw::Coefficients {
+                normal,
+                stick,
+                slide,
+            } => (normal.as_deref(), &**stick, slide.as_deref()),
             FrictionLaw::Limit(limit) => match &limit.kind {
-                ExprKind::List(limits) => (limits.first()?, limits.get(1)),
-                _ => (limit, None),
+                ExprKind::List(limits) => (None, limits.first()?, limits.get(1)),
+                _ => (None, limit, None),
             },
         };
         let second = second.unwrap_or(first);
         let pool = &self.system.pool;
         let (stick, slide) = (pool.as_number(stick), pool.as_number(slide));
-        for (number, expr) in [(stick, first), (slide, second)] {
+        let normal = normal.and_then(|normal| pool.as_number(normal));
+        let pressing = pressing.map(|expr| (normal, expr));
+        for (number, expr) in pressing
+            .into_iter()
+            .chain([(stick, first), (slide, second)])
+        {
             if number.is_some_and(Rational::is_negative) {
                 self.sink.report(Code::NegativeFriction, expr.extent, &[]);
                 return None;

@@ -43,7 +43,7 @@ impl Elaboration<'_> {
         integer
     }
 
-    /// The bounds of a range that is not empty and not too long.
+    /// The bounds of a range that is not too long.
     pub fn bounds(&mut self, range: &Range) -> Option<(i64, i64)> {
         let (from, to) = (self.integer(&range.from), self.integer(&range.to));
         let (from, to) = (from?, to?);

@@ -5,6 +5,7 @@ use super::meaning::{Entry, Kind, Meaning};
 use crate::ast::{Name, Reference};
 use crate::diagnostics::{Code, nearest};
 use crate::parse::FUNCTIONS;
+use unicode_ident::is_xid_continue;
 
 /// Words with a meaning of their own in expressions, beside the functions.
 const RESERVED: &[&str] = &[
@@ -33,6 +34,9 @@ const RESERVED: &[&str] = &[
     "in",
 ];
 
+/// Constants that systems have beside the handles of their items.
+pub(crate) const CONSTANTS: [&str; 3] = ["CHECKS", "DECLARATION", "DESCRIPTION"];
+
 impl Elaboration<'_> {
     /// Enters a name; a reserved word or second use of a name is reported. Where the word is then used as a name, nothing more is said.
     pub fn enter(&mut self, name: &Name, kind: Kind, meaning: Meaning) -> Option<()> {
@@ -50,6 +54,10 @@ impl Elaboration<'_> {
         }
         if kind.has_handle() {
             let handle = shouting(text);
+            if CONSTANTS.contains(&handle.as_str()) {
+                self.sink
+                    .report(Code::ConstantOfSystems, name, &[&text, &handle]);
+            }
             match self.handles.get(&handle) {
                 Some(first) => self
                     .sink
@@ -273,7 +281,9 @@ pub(crate) fn shouting(name: &str) -> String {
         lower = letter.is_lowercase() || letter.is_numeric();
         match spelt(letter) {
             Some(name) => constant.push_str(&name.to_uppercase()),
-            None => constant.extend(letter.to_uppercase()),
+            None if is_xid_continue(letter) => constant.extend(letter.to_uppercase()),
+            // rustc goes on behind a name with an emoji, and has told it.
+            None => constant.push_str(&format!("U{:X}", u32::from(letter))),
         }
     }
     constant

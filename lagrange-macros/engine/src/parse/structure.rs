@@ -144,7 +144,7 @@ fn length(length: &Expr) -> Option<usize> {
 /// `unit = "kg"`
 fn field_attribute(part: &mut Cursor, field: &mut Field, sink: &mut Diagnostics) -> Option<()> {
     let keys = ["tex", "unit", "symbol", "domain"];
-    let key = item::key(part, "a field", &keys, sink)?;
+    let key = item::key(part, "#[lagrange(…)]", &keys, sink)?;
     let extent = part.here();
     let text = item::text(part, "a text in quotation marks", sink)?;
     let given = match key.text.as_str() {

@@ -2,6 +2,7 @@
 
 use super::{read, with};
 use crate::diagnostics::tests::mistakes_are_at;
+use crate::model::shouting;
 
 /// (items from line 2 on, mistakes as `line:col code`)
 #[test]
@@ -144,6 +145,23 @@ fn mistakes_point_at_their_token() {
         ("potential(p: theta_dot)", "2:14 E201"),
     ];
     mistakes_are_at(&wrong, |items| with(items).map(|_| ()));
+}
+
+/// rustc reads on behind an identifier with an emoji, once it has told it: a constant that it would refuse is another message.
+#[test]
+fn names_become_constants_that_rust_allows() {
+    for (name, constant) in [
+        ("muStatic", "MU_STATIC"),
+        ("mu_static", "MU_STATIC"),
+        ("θ2", "THETA2"),
+        ("größe", "GRÖSSE"),
+        ("e\u{301}", "E\u{301}"),
+        ("a🚀", "AU1F680"),
+        ("🚀", "U1F680"),
+    ] {
+        assert_eq!(shouting(name), constant);
+        assert!(syn::parse_str::<syn::Ident>(constant).is_ok(), "{constant}");
+    }
 }
 
 #[test]

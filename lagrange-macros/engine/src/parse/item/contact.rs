@@ -91,8 +91,21 @@ fn contact_part(
         let key = key(part, "contact", &["restitution", "where"], sink)?;
         let found = match part.take_word("poisson") {
             None => Restitution::Newton(expression(part, sink)?),
-            Some(_) => match part.take_group(Delimiter::Parenthesis) {
-                Some(group) => Restitution::Poisson(whole(&mut part.inside(&group, sink)?, sink)?),
+            Some(poisson) => match part.take_group(Delimiter::Parenthesis) {
+                Some(group) => {
+                    let inside = part.inside(&group, sink)?;
+                    let mut arguments = inside.parts("a coefficient", sink);
+                    let [e] = arguments.as_mut_slice() else {
+                        let count = arguments.len();
+                        sink.report(
+                            Code::ArgumentCount,
+                            &poisson,
+                            &[&poisson.text, &"1 argument", &count],
+                        );
+                        return None;
+                    };
+                    Restitution::Poisson(whole(e, sink)?)
+                }
                 None => {
                     part.expected("`(`, as in `poisson(e)`", sink);
                     return None;
