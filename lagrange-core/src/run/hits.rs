@@ -43,6 +43,8 @@ pub(super) struct Locator<T> {
     pub(super) zeros: Vec<(Guard, usize)>,
     /// Whether a gap began at zero with the step that has just ended.
     pub(super) opened: bool,
+    /// Whether a gap stays zero although its contact is open, because others hold it there.
+    pub(super) lies: bool,
     /// Forces that are at their limit, with their sizes.
     pub(super) at_limit: Vec<(Guard, f64)>,
     /// How far these are off, relative, because the directions of slips that have nearly vanished are.
@@ -77,6 +79,7 @@ impl<T: Scalar> Locator<T> {
             polynomials: GuardPolynomials::new(d, &settings.effects),
             zeros: Vec::new(),
             opened: false,
+            lies: false,
             at_limit: Vec::new(),
             blur: 0.0,
             falls: Vec::new(),
@@ -97,6 +100,7 @@ impl<T: Scalar> Locator<T> {
         let watches = self.stop_below.iter_mut().chain(&mut self.mark_below);
         watches.for_each(|terms| terms.fill(false));
         self.mark_passed.fill(None);
+        self.lies = false;
         self.polynomials.composites.clear();
         self.polynomials.held.clear();
     }

@@ -232,7 +232,9 @@ impl<T: Scalar> Run<T> {
         let zeros = self.locator.zeros.iter();
         let lying = zeros
             .filter(|(guard, order)| matches!(guard, Guard::Gap(_)) && *order >= guard::LENGTH);
+        self.locator.lies = false;
         for &(gap, _) in lying {
+            self.locator.lies = true;
             let margin = self.settings.tolerance;
             self.locator.polynomials.lower(gap, margin);
         }
@@ -251,8 +253,10 @@ impl<T: Scalar> Run<T> {
             self.take_sides_after_impact(facts);
         }
         let leaves_an_edge = |guard: &Guard| matches!(guard, Guard::Region(_));
-        // A gap that has just begun to open may still be as good as closed, where something else changes at once.
-        if arrives || self.locator.opened || facts.located.iter().any(leaves_an_edge) {
+        // A gap that has just begun to open may still be as good as closed, where something else changes at once; and what lies on a surface without
+        // a load may be loaded again.
+        let near_surfaces = arrives || self.locator.opened || self.locator.lies;
+        if near_surfaces || facts.located.iter().any(leaves_an_edge) {
             self.take_what_touches(facts);
         }
         if !hit {
