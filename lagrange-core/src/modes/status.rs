@@ -72,6 +72,7 @@ impl ConstraintStatus {
             state,
             near: slack(tolerance.strictness()),
             sizes: tolerance.sizes,
+            least: tolerance.strictness() / slack(tolerance.strictness()),
             extent: state.q.iter().fold(1.0_f64, |m, x| m.max(x.value().abs())),
         };
         let includes = |item: Item| dynamics.effects().includes(d, item);
@@ -209,6 +210,8 @@ struct View<'a, T: Scalar> {
     extent: f64,
     /// Per coordinate, where they are given: the size below which its errors are absolute.
     sizes: &'a [f64],
+    /// What makes their absolute tolerances of these.
+    least: f64,
 }
 
 impl<T: Scalar> View<'_, T> {
@@ -243,7 +246,11 @@ impl<T: Scalar> View<'_, T> {
     /// The sum of the terms of a row for coordinates or velocities of their size, or of that below which errors are absolute.
     fn sum(&self, row: usize, size: impl Fn(usize) -> f64) -> f64 {
         let terms = self.dynamics.description().rows[row].jacobian.iter();
-        let size = |j: usize| size(j).max(least_size(self.sizes, j));
+        let least = |j: usize| match self.sizes {
+            [] => 1.0,
+            _ => self.least * least_size(self.sizes, j),
+        };
+        let size = |j: usize| size(j).max(least(j));
         let terms = terms.map(|&(j, place)| self.number(place).abs() * size(j));
         terms.sum()
     }

@@ -20,11 +20,9 @@ impl<T: Scalar> Run<T> {
             return;
         }
         self.dynamics.set_mode(&self.now.mode);
-        let mut watched = core::mem::take(&mut self.switcher.watched);
-        watched.clone_from(&self.switcher.table.of(&self.dynamics).guards);
-        let watches = |b: usize| watched.contains(&Guard::Branch(b));
-        self.take_sides(|b, guard| (!watches(b) && guard != 0.0).then_some(guard > 0.0));
-        self.switcher.watched = watched;
+        let guards = &self.switcher.table.of(&self.dynamics).guards;
+        self.switcher.watched.clone_from(guards);
+        self.take_sides(|watched, _, guard| (!watched && guard != 0.0).then_some(guard > 0.0));
     }
 
     /// Remembers the conditions of branches just before an impact, from the values of all rows.
@@ -49,7 +47,7 @@ impl<T: Scalar> Run<T> {
         let before = core::mem::take(&mut self.switcher.conditions);
         let speeds = self.now.state.v.iter();
         let fastest = speeds.fold(0.0_f64, |fastest, v| fastest.max(v.value().abs()));
-        self.take_sides(|b, guard| {
+        self.take_sides(|_, b, guard| {
             if guard == before[b] {
                 return None;
             }
@@ -61,8 +59,9 @@ impl<T: Scalar> Run<T> {
         self.switcher.conditions = before;
     }
 
-    /// Puts branches on the sides that follow from the values of their guards at the present state; that of one may depend on the side of another.
-    fn take_sides(&mut self, mut side: impl FnMut(usize, f64) -> Option<bool>) {
+    /// Puts branches on the sides that follow from the values of their guards at the present state, from whether the mode watches one, its number, and
+    /// the value; that of one may depend on the side of another.
+    fn take_sides(&mut self, mut side: impl FnMut(bool, usize, f64) -> Option<bool>) {
         let d = self.description();
         let mut moved = false;
         for _ in 0..d.branches.len() {
@@ -73,10 +72,15 @@ impl<T: Scalar> Run<T> {
                     continue;
                 }
                 let guard = self.dynamics.motion(branch.guard).value();
-                if let Some(side) = side(b, guard)
+                let watched = self.switcher.watched.contains(&Guard::Branch(b));
+                if let Some(side) = side(watched, b, guard)
                     && side != self.now.mode.branch(b)
                 {
                     self.now.mode.set_branch(b, side);
+                    // What nothing watches is no event.
+                    if !watched {
+                        self.recorder.before.mode.set_branch(b, side);
+                    }
                     changes = true;
                 }
             }

@@ -36,7 +36,7 @@ pub(super) struct Switcher<T> {
     pub(super) collider: Collider<T>,
     /// Branches that what touches holds at their border.
     pub(super) held: HeldBranches<T>,
-    /// Guards that the mode watches,
+    /// Guards that the mode up to the switch watches,
     pub(super) watched: Vec<Guard>,
     /// and the conditions of branches before an impact.
     pub(super) conditions: Vec<f64>,

@@ -159,7 +159,7 @@ impl<T: Runnable> Work<T> {
                 let difference = estimate.map(|estimate| &estimate.difference);
                 let reason = difference.map(|difference| match stays == PATIENCE {
                     true => of_rounding(difference, best),
-                    false => of_tolerance(difference, settings.tolerance),
+                    false => of_tolerance(difference, &settings),
                 });
                 return Err(inexact(reason.unwrap_or_default()));
             }
@@ -215,11 +215,16 @@ fn of_rounding(difference: &Difference, best: f64) -> String {
 }
 
 /// The same where the method has no tighter tolerance.
-fn of_tolerance(difference: &Difference, tightest: f64) -> String {
+fn of_tolerance(difference: &Difference, settings: &Settings) -> String {
+    let help = match settings.method {
+        Method::Auto | Method::Taylor => "end earlier, or ask for less",
+        _ => "the default method, `auto`, goes further",
+    };
     part(difference).unwrap_or_else(|what| {
         format!(
-            "{what} by {:.1e} at the tightest tolerance that this method has, {tightest:.1e}; the default method, `auto`, goes further",
-            difference.error()
+            "{what} by {:.1e} at the tightest tolerance that this method has, {:.1e}; {help}",
+            difference.error(),
+            settings.tolerance
         )
     })
 }

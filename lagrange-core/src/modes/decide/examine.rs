@@ -272,7 +272,9 @@ impl<T: Scalar> Decider<T> {
             };
             let size = sizes.of(guard, dynamics);
             let incomparable = match guard {
-                Guard::NormalForceSign(_) => size <= value.abs(),
+                Guard::NormalForceSign(_) => {
+                    size <= value.abs() || all_vanish && size <= RESIDUES * value.abs()
+                }
                 _ => (exactly || all_vanish) && size <= RESIDUES * value.abs(),
             };
             if incomparable && concerns(guard, composites, facts) {
