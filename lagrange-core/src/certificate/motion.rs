@@ -70,6 +70,9 @@ pub(super) struct Examination<'a, T: Scalar> {
     nodes: Vec<(f64, f64)>,
 }
 
+/// So much before its end, as a share, a step is looked at for its end.
+const SHORTLY: f64 = 1e-9;
+
 /// Nodes and weights of Radau's quadrature with three places in [0, 1], the last of them the end (Hairer & Wanner 1996, section IV.5).
 const RADAU: [(f64, f64); 3] = [
     (0.155_051_025_721_682_2, 0.376_403_062_700_467_3),
@@ -318,8 +321,8 @@ impl<T: Scalar> Examination<'_, T> {
             self.equations.take(at);
             let mode = &self.modes[segment.mode];
             self.equations.examine(at, mode, &mut self.findings);
-            // What a force has done wrong since some instant of a long step shows at its end.
-            let last = self.report(k, segment.end.value())?;
+            // What a force has done wrong since some instant of a long step shows at its end; at that itself a condition may already be on its other side.
+            let last = self.report(k, (1.0 - SHORTLY) * segment.end.value())?;
             let at = last.situation(self.begin.q.len());
             let mode = &self.modes[segment.mode];
             self.equations.take(at);

@@ -152,6 +152,79 @@ fn an_impact_has_the_coefficients_of_where_it_is() {
     }
 }
 
+/// Two masses on one rope, which friction presses; a motor pulls to and fro.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(a, b),
+    kinetic = first/2*der(a)^2 + second/2*der(b)^2,
+    constraint(rope: a == b),
+    friction(rub on rope: slip = der(a), static = mu),
+    force(motor: a = sin(t)),
+    start(go: der(a) = speed, der(b) = speed),
+)]
+struct Rope {
+    first: f64,
+    second: f64,
+    mu: f64,
+    speed: f64,
+}
+
+/// The force of the rope is f = m₂ a, and (m₁ + m₂) a = sin t − μ |f|: it passes zero with the sine, where all forces vanish at once.
+#[test]
+fn a_force_that_carries_friction_passes_zero_with_all_others() {
+    let rope = Rope {
+        first: 1.2,
+        second: 0.7,
+        mu: 0.15,
+        speed: 9.0,
+    };
+    let total = rope.first + rope.second;
+    let slope = |t: f64, [_, v]: [f64; 2]| {
+        let pull = t.sin();
+        let friction = rope.mu * rope.second * pull.signum();
+        [v, pull / (total + friction)]
+    };
+    // Half waves, each of one sign.
+    let (mut t, mut y) = (0.0, [0.0, rope.speed]);
+    for _ in 0..3 {
+        let h = std::f64::consts::PI / 4000.0;
+        for k in 0..4000 {
+            let middle = |s: f64, y| slope(s.clamp(t + 1e-12, t + 4000.0 * h - 1e-12), y);
+            y = lagrange_tests::runge_kutta(middle, (t + h * f64::from(k), y), h);
+        }
+        t += 4000.0 * h;
+    }
+    for method in METHODS.map(|method| method.to_string()) {
+        let motion = run_by(&rope, (&method, 1e-10), rope.at(Rope::GO), t);
+        let State { q, v, .. } = motion.final_state();
+        agree("place", q[0], y[0], 1e-7);
+        agree("speed", v[0], y[1], 1e-8);
+        certified(&method, &motion);
+    }
+}
+
+/// A brake that lets go at a given time.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2/2,
+    force(pull: x = 4),
+    friction(brake: slip = der(x), limit = if(t >= release, 0, 5)),
+)]
+struct Brake {
+    release: f64,
+}
+
+#[test]
+fn a_brake_that_lets_go_has_held_until_then() {
+    let brake = Brake { release: 0.8 };
+    for method in METHODS.map(|method| method.to_string()) {
+        let motion = run_by(&brake, (&method, 1e-9), state(&[0.0], &[0.0]), 2.0);
+        agree("place", motion.final_state().q[0], 2.0 * 1.2 * 1.2, 1e-8);
+        certified(&method, &motion);
+    }
+}
+
 /// A motor whose force is bounded drives a slide against a buffer.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
