@@ -273,7 +273,7 @@ impl<T: Scalar> Decider<T> {
             let size = sizes.of(guard, dynamics);
             let incomparable = match guard {
                 Guard::NormalForceSign(_) => {
-                    size <= value.abs() || all_vanish && size <= RESIDUES * value.abs()
+                    size <= value.abs() || value.abs() <= RESIDUES * facts.residue * size
                 }
                 _ => (exactly || all_vanish) && size <= RESIDUES * value.abs(),
             };
