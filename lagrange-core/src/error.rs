@@ -414,8 +414,8 @@ impl fmt::Display for Error {
             ),
             Error::Corner { time, item, rate } => write!(
                 f,
-                "t = {time}: the rate of `{item}` jumps to {rate:.6} where a piecewise expression changes, and what \
-                 velocities do at such a corner is not computed; round it, or write each side as a contact of its own"
+                "t = {time}: the rate of `{item}` jumps to {rate:.6} where a piecewise expression changes, or where what a root is \
+                 taken of vanishes, and what velocities do at such a corner is not computed; round it, or write each side as a contact of its own"
             ),
             Error::Kick {
                 time,

@@ -148,6 +148,30 @@ impl<T: Scalar> Run<T> {
         self.refuse_kicks()
     }
 
+    /// Refuses a step up to part `end` of it that has passed a corner of what acts, where no branch says so: the middle of a `norm`. Its state there,
+    /// which is at hand, does not keep the rates that it should.
+    ///
+    /// # Errors
+    /// [`Error::Corner`].
+    pub(super) fn refuse_hidden_corners(&mut self, end: f64) -> Result<(), Error> {
+        if !self.may_jump || end == 0.0 || !self.locator.rests.is_empty() || self.is_undecided() {
+            return Ok(());
+        }
+        let State { q, v, .. } = &self.stepper.scratch;
+        let time = self.stepper.step.time(T::from_f64(end));
+        let (_, velocity) = self.dynamics.residuals(time, q, v);
+        let most = CORNER.max(1e3 * self.settings.tolerance);
+        if velocity.relative > most {
+            return Err(Error::Corner {
+                time: time.value(),
+                item: row_name(self.description(), velocity.row),
+                rate: velocity.value,
+            });
+        }
+        // What the step has left is evaluated again.
+        self.evaluate_end(end).map_err(|e| self.error(e))
+    }
+
     /// Refuses momenta and Lagrangians that jump.
     fn refuse_kicks(&mut self) -> Result<(), Error> {
         let d = self.description();

@@ -379,6 +379,7 @@ impl<T: Scalar> Run<T> {
         self.check_resolution()?;
         let mut end = hit.end();
         let mut exact = self.exact_end(&hit);
+        self.refuse_hidden_corners(end)?;
         let refused = self.friction_that_pushes(end);
         if let Some((first, _)) = &refused {
             (end, exact) = (*first, T::from_f64(*first));
