@@ -6,8 +6,10 @@ use crate::effects::Item;
 use crate::mode::{Direction, FrictionMode, Mode};
 use crate::trajectory::State;
 
-/// Shares of forces that are not determined are chosen within their bounds to so many digits.
+/// Shares of forces that are not determined are chosen within their bounds to so many digits,
 const SHARED: f64 = 1e-9;
+/// and cancel to so many.
+const OF_SHARES: f64 = 1e-11;
 
 /// Beside its reach a slip in space has no direction below this multiple of the tolerance.
 const VANISHING: f64 = 1e3;
@@ -52,8 +54,10 @@ impl Equations {
             self.balance_with_sizes(at, mode);
         }
         self.take_all_as_it_is();
+        let shared = if at.shared { OF_SHARES } else { 0.0 };
         for (i, coordinate) in self.d.coordinates.iter().enumerate() {
-            let (error, size) = (self.residual[i].abs(), self.size[i]);
+            let size = self.size[i];
+            let error = (self.residual[i].abs() - shared * size).max(0.0);
             findings.book(Subject::Equations, error, size, at.time, coordinate.name);
         }
     }
