@@ -98,10 +98,10 @@ impl<T: Scalar> Decider<T> {
                 Around::Nothing => false,
                 Around::Direction => true,
                 Around::Flat => {
-                    self.beginning.settle(dynamics, moment)?
+                    self.beginning.settle_along(dynamics, moment)?
                         || shared && {
                             self.beginning.drift(dynamics, moment)?;
-                            self.beginning.settle(dynamics, moment)?
+                            self.beginning.settle_along(dynamics, moment)?
                         }
                 }
             };
@@ -269,7 +269,32 @@ impl Beginning {
         Ok(())
     }
 
-    /// The directions of slips that begin together, by Newton's method from their angles.
+    /// The directions of slips that begin together, by Newton's method from their angles. Where it ends in directions against which slips begin, once
+    /// more from those turned round.
+    fn settle_along<T: Scalar>(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        moment: EvaluationPoint<'_, T>,
+    ) -> Result<bool, EvaluationError> {
+        for _ in 0..=self.frictions.len() {
+            if self.settle(dynamics, moment)? {
+                return Ok(true);
+            }
+            let mut turned = false;
+            for (angle, &f) in self.angles.iter_mut().zip(&self.frictions) {
+                if frame_of(dynamics, f).along < 0.0 {
+                    *angle += 0.5 * TAU;
+                    turned = true;
+                }
+            }
+            if !turned {
+                break;
+            }
+        }
+        Ok(false)
+    }
+
+    /// The same, whether slips begin along these directions or against them; whether they do so along them.
     fn settle<T: Scalar>(
         &mut self,
         dynamics: &mut Dynamics<T>,
