@@ -72,6 +72,33 @@ fn a_ball_rolls_in_a_corner_where_some_forces_hold_it() {
     }
 }
 
+/// Faster than any forces can hold, it begins to slip at both at once: down the wall, which carries it by its friction, and inward on the floor.
+#[test]
+fn a_ball_begins_to_slip_at_wall_and_floor_at_once() {
+    let tub = Tub {
+        mass: 1.2,
+        radius: 0.02,
+        tub: 0.054,
+        gravity: 9.81,
+        wall_mu: 0.06,
+        floor_mu: 1.2,
+        speed: 1.18,
+    };
+    let push = tub.speed * tub.speed / (tub.tub - tub.radius);
+    let wall = (push + tub.floor_mu * tub.gravity) / (1.0 + tub.wall_mu * tub.floor_mu);
+    let floor = tub.gravity - tub.wall_mu * wall;
+    for method in METHODS.map(|method| method.to_string()) {
+        let motion = run_by(&tub, (&method, 1e-9), tub.at(Tub::ROLL), 0.02);
+        let slips = motion.events().iter();
+        let slips = slips.filter(|e| e.time == 0.0 && e.kind == EventKind::Slips);
+        assert_eq!(slips.count(), 2, "{method}: {:?}", words(&motion));
+        let now = motion.sampler().at(0.0).expect("recorded");
+        agree("wall", now.force(Tub::WALL), tub.mass * wall, 1e-6);
+        agree("floor", now.force(Tub::FLOOR), tub.mass * floor, 1e-6);
+        certified(&method, &motion);
+    }
+}
+
 /// A table that was tipped about the edge between two of its feet falls back.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
