@@ -288,19 +288,14 @@ impl<T: Scalar> Solver<T> {
             let of = quaternions.find(|of| of.contains(&j));
             let largest = of.map(|of| of.map(inertia).into_iter().fold(0.0, f64::max));
             let inertia = largest.unwrap_or_else(|| inertia(j));
-            let own = inertia > 0.0 && (of.is_some() || !self.light[j]);
             self.scale
-                .push(if own { inverse_root(inertia) } else { 0.0 });
-        }
-        for j in 0..n {
-            if self.scale[j] == 0.0 {
-                let share = self.share_of_others(j);
-                self.scale[j] = share.unwrap_or_else(|| {
+                .push(if inertia > 0.0 && (of.is_some() || !self.light[j]) {
+                    inverse_root(inertia)
+                } else {
                     let column = (0..size).map(|i| self.matrix[i * size + j].value().abs());
                     let largest = column.fold(0.0, f64::max);
                     inverse_root(largest * largest)
                 });
-            }
         }
         for row in n..size {
             let scaled = self.matrix[row * size..][..n].iter().zip(&self.scale);
@@ -309,23 +304,6 @@ impl<T: Scalar> Solver<T> {
             });
             self.scale.push(inverse_root(largest * largest));
         }
-    }
-
-    /// The scale by which a coordinate with hardly any inertia comes to what the others are in its rows; nothing where it is alone in them.
-    fn share_of_others(&self, j: usize) -> Option<f64> {
-        let (n, size) = (self.coordinates, self.size);
-        let rows = self.matrix[n * size..].chunks_exact(size.max(1));
-        let shares = rows.filter_map(|row| {
-            let own = row[j].value().abs();
-            let others = row[..n].iter().zip(&self.scale);
-            let others = others.map(|(a, scale)| a.value().abs() * scale);
-            let others = others.fold(0.0, f64::max);
-            (own > 0.0 && others > 0.0).then(|| others / own)
-        });
-        let least = shares.fold(f64::INFINITY, f64::min);
-        least
-            .is_finite()
-            .then(|| inverse_root(least.recip() * least.recip()))
     }
 
     /// Finds the coordinates from which a row gets nearly all of its compliance Σ aₖ²/mₖ: scaled by such an inertia the others would
