@@ -93,16 +93,11 @@ pub fn check_restitution<T: Scalar>(dynamics: &Dynamics<T>, t: f64, c: usize) ->
     })
 }
 
-/// Looks at the strength of the frictions that act, in the values that `dynamics` holds: below zero they would push. `strengths` has the largest number
-/// of each so far, beside which its error is small.
+/// Looks at the strength of the frictions that act, in the values that `dynamics` holds: below zero they would push.
 ///
 /// # Errors
 /// [`Error::Domain`]: the first that is.
-pub fn check_acting<T: Scalar>(
-    dynamics: &Dynamics<T>,
-    t: f64,
-    strengths: &mut [f64],
-) -> Result<(), Error> {
+pub fn check_acting<T: Scalar>(dynamics: &Dynamics<T>, t: f64) -> Result<(), Error> {
     let d = dynamics.description();
     for (f, friction) in d.frictions.iter().enumerate() {
         let coefficient = match dynamics.mode().frictions[f] {
@@ -112,11 +107,7 @@ pub fn check_acting<T: Scalar>(
         };
         let numbers = normal_force(friction).into_iter().chain([coefficient]);
         let numbers = numbers.filter(|number| !is_fixed(number.place));
-        let values = numbers
-            .clone()
-            .map(|number| dynamics.motion(number.place).value().abs());
-        strengths[f] = values.fold(strengths[f], f64::max);
-        refuse_negative(dynamics, t, f, numbers, strengths[f])?;
+        refuse_negative(dynamics, t, f, numbers)?;
     }
     Ok(())
 }
@@ -131,7 +122,6 @@ pub fn strengths_vary(d: &Description) -> bool {
 }
 
 /// A number that a friction is made of.
-#[derive(Clone)]
 struct Number {
     what: &'static str,
     place: ValueRef,
@@ -166,13 +156,9 @@ fn normal_force(friction: &Friction) -> Option<Number> {
     }
 }
 
-/// A number that vanishes with the slip has the sign of its error where that has decayed; numbers have been as large as `size`.
-fn least(place: ValueRef, size: f64) -> f64 {
-    if is_fixed(place) {
-        0.0
-    } else {
-        -DECAYED * size.min(1.0)
-    }
+/// A number that vanishes with the slip has the sign of its error where that has decayed.
+fn least(place: ValueRef) -> f64 {
+    if is_fixed(place) { 0.0 } else { -DECAYED }
 }
 
 fn refuse_negative<T: Scalar>(
@@ -180,7 +166,6 @@ fn refuse_negative<T: Scalar>(
     t: f64,
     f: usize,
     numbers: impl Iterator<Item = Number>,
-    size: f64,
 ) -> Result<(), Error> {
     for Number {
         what,
@@ -189,7 +174,7 @@ fn refuse_negative<T: Scalar>(
     } in numbers
     {
         let value = dynamics.motion(place).value();
-        if value < least(place, size) {
+        if value < least(place) {
             return Err(Error::Domain {
                 time: t,
                 item: dynamics.description().frictions[f].name,
@@ -221,12 +206,12 @@ fn check_friction<T: Scalar>(
     let numbers = [static_friction(friction), kinetic_friction(friction)];
     let numbers = numbers.into_iter().chain(normal_force(friction));
     let counts = |number: &Number| is_fixed(number.place) || mode != FrictionMode::Inactive;
-    refuse_negative(dynamics, t, f, numbers.filter(counts), 1.0)?;
+    refuse_negative(dynamics, t, f, numbers.filter(counts))?;
     // Where the coefficients depend on the slip it is those at rest that must agree.
     let (at_rest, sliding) = (friction.static_coefficient, friction.kinetic_coefficient);
     let [limit, value] = [at_rest, sliding].map(|place| dynamics.motion(place).value());
     let comparable = is_fixed(at_rest) && is_fixed(sliding) || mode == FrictionMode::Stick;
-    if comparable && value > (1.0 + ROUNDING) * limit - least(sliding, 1.0) {
+    if comparable && value > (1.0 + ROUNDING) * limit - least(sliding) {
         return Err(Error::Domain {
             time: t,
             item: friction.name,

@@ -93,7 +93,7 @@ impl<T: Scalar> Impacts<T> {
         let interval = time - self.last;
         let ratio = interval / self.interval;
         // What is squeezed between others may be hit ever sooner and ever harder.
-        let slower = rate.abs() <= 0.5 * (1.0 + ratio) * self.speed;
+        let slower = rate.abs() <= self.speed;
         self.speed = rate.abs();
         let shrinking = self.count > 0 && ratio < 1.0;
         let steady = shrinking && (ratio - self.ratio).abs() < 0.1 * (1.0 - ratio);

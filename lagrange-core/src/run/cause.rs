@@ -76,12 +76,12 @@ impl<T: Scalar> Run<T> {
     /// Where a friction begins to push within the step up to part `end` of it, whose values `dynamics` holds, because its strength follows from
     /// the state and falls below zero; and the error.
     pub(super) fn friction_that_pushes(&mut self, end: f64) -> Option<(f64, Error)> {
-        if self.strengths.is_empty() || end == 0.0 || !self.locator.rests.is_empty() {
+        if !self.strengths_vary || end == 0.0 || !self.locator.rests.is_empty() {
             return None;
         }
-        let check = |run: &mut Self, s: f64| {
+        let check = |run: &Self, s: f64| {
             let time = run.stepper.step.time(T::from_f64(s)).value();
-            domain::check_acting(&run.dynamics, time, &mut run.strengths).err()
+            domain::check_acting(&run.dynamics, time).err()
         };
         let (mut good, mut bad) = (0.0, (end, check(self, end)?));
         for _ in 0..BISECTIONS {

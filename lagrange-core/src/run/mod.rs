@@ -81,8 +81,8 @@ pub(crate) struct Run<T: Scalar> {
     stepper: Stepper<T>,
     /// Of what is declared, if there are any.
     hidden: Option<Hidden>,
-    /// Per friction: its largest strength so far; empty where none follows from the state.
-    strengths: Vec<f64>,
+    /// Whether the strength of a friction follows from the state.
+    strengths_vary: bool,
     /// Whether accelerations may jump where no branch says so.
     may_jump: bool,
     /// Of what is declared, if a choice in it may change.
@@ -150,10 +150,7 @@ impl<T: Scalar> Run<T> {
             dynamics: Dynamics::of(system.clone(), &settings.effects),
             stepper: Stepper::new(settings, d, &state),
             hidden: Hidden::new(&system, &settings.effects),
-            strengths: match domain::strengths_vary(d) {
-                true => vec![0.0; d.frictions.len()],
-                false => Vec::new(),
-            },
+            strengths_vary: domain::strengths_vary(d),
             may_jump: hidden::may_jump(&system, &settings.effects),
             lagrangian: Lagrangian::new(&system, &settings.effects),
             rank: Rank::new(d, &settings.effects),
@@ -283,7 +280,6 @@ impl<T: Scalar> Run<T> {
         self.now.distance = 1.0;
         self.locator.restart();
         self.switcher.restart();
-        self.strengths.fill(0.0);
         self.recorder.awaited.clone_from(&self.settings.last_events);
         (self.recorder.events_before, self.recorder.finished) = (0, false);
         let begun = self.enter_start().and_then(|()| self.settle());
