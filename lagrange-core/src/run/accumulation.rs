@@ -43,8 +43,6 @@ pub(super) struct Impacts<T> {
     interval: f64,
     /// Ratio of the last two intervals.
     ratio: f64,
-    /// Speed at which the gap closed last.
-    speed: f64,
     /// How long all further ones were to last, as judged at the last one.
     left: f64,
     /// The last three times, the latest first.
@@ -64,7 +62,6 @@ impl<T: Scalar> Default for Impacts<T> {
             last: 0.0,
             interval: 0.0,
             ratio: 0.0,
-            speed: 0.0,
             left: f64::INFINITY,
             times: [T::zero(); 3],
             height: f64::INFINITY,
@@ -79,7 +76,6 @@ impl<T: Scalar> Impacts<T> {
     pub(super) fn restart(&mut self) {
         (self.count, self.unresolved) = (0, 0);
         (self.last, self.interval, self.ratio) = (0.0, 0.0, 0.0);
-        self.speed = 0.0;
         (self.left, self.height) = (f64::INFINITY, f64::INFINITY);
         self.times = [T::zero(); 3];
     }
@@ -92,9 +88,6 @@ impl<T: Scalar> Impacts<T> {
         let time = time.value();
         let interval = time - self.last;
         let ratio = interval / self.interval;
-        // What is squeezed between others may be hit ever sooner and ever harder.
-        let slower = rate.abs() <= self.speed;
-        self.speed = rate.abs();
         let shrinking = self.count > 0 && ratio < 1.0;
         let steady = shrinking && (ratio - self.ratio).abs() < 0.1 * (1.0 - ratio);
         self.count = if shrinking || self.count < 2 {
@@ -111,7 +104,7 @@ impl<T: Scalar> Impacts<T> {
         } else {
             0
         };
-        if steady && slower && self.count >= FEWEST {
+        if steady && self.count >= FEWEST {
             let ratio = self.mean_ratio();
             let left = interval * ratio / (1.0 - ratio);
             // Judged one impact ago, the same end was as far away and this interval.
