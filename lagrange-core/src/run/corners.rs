@@ -6,7 +6,7 @@
 use super::Run;
 use crate::arithmetic::Scalar;
 use crate::declaration::{Declaration, Evaluator, Gradient, Inputs, Seed};
-use crate::dynamics::row_name;
+use crate::dynamics::{Residual, row_name};
 use crate::effects::{Effects, Item};
 use crate::error::Error;
 use crate::system::Erased;
@@ -129,8 +129,7 @@ impl<T: Scalar> Run<T> {
         let (position, velocity) = self.dynamics.residuals(self.now.t, q, v);
         self.now.valued = false;
         let (d, time) = (self.description(), self.now.t.value());
-        let most = CORNER.max(1e3 * self.settings.tolerance);
-        if position.relative > most {
+        if position.relative > self.corner() {
             return Err(Error::Discontinuous {
                 time,
                 item: row_name(d, position.row),
@@ -138,13 +137,7 @@ impl<T: Scalar> Run<T> {
                 after: position.value,
             });
         }
-        if velocity.relative > most {
-            return Err(Error::Corner {
-                time,
-                item: row_name(d, velocity.row),
-                rate: velocity.value,
-            });
-        }
+        self.refuse_corner(time, velocity)?;
         self.refuse_kicks()
     }
 
@@ -154,22 +147,34 @@ impl<T: Scalar> Run<T> {
     /// # Errors
     /// [`Error::Corner`].
     pub(super) fn refuse_hidden_corners(&mut self, end: f64) -> Result<(), Error> {
-        if !self.may_jump || end == 0.0 || !self.locator.rests.is_empty() || self.is_undecided() {
+        let may_pass = self.may_jump && !self.dynamics.acting_rows().is_empty();
+        let tells = end > 0.0 && self.locator.rests.is_empty() && !self.is_undecided();
+        if !(may_pass && tells) {
             return Ok(());
         }
         let State { q, v, .. } = &self.stepper.scratch;
         let time = self.stepper.step.time(T::from_f64(end));
         let (_, velocity) = self.dynamics.residuals(time, q, v);
-        let most = CORNER.max(1e3 * self.settings.tolerance);
-        if velocity.relative > most {
-            return Err(Error::Corner {
-                time: time.value(),
-                item: row_name(self.description(), velocity.row),
-                rate: velocity.value,
-            });
-        }
+        self.refuse_corner(time.value(), velocity)?;
         // What the step has left is evaluated again.
         self.evaluate_end(end).map_err(|e| self.error(e))
+    }
+
+    /// Refuses a rate that should be zero and is not.
+    fn refuse_corner(&self, time: f64, velocity: Residual) -> Result<(), Error> {
+        match velocity.relative > self.corner() {
+            true => Err(Error::Corner {
+                time,
+                item: row_name(self.description(), velocity.row),
+                rate: velocity.value,
+            }),
+            false => Ok(()),
+        }
+    }
+
+    /// What residuals of rows are beyond, relative, where these jump.
+    fn corner(&self) -> f64 {
+        CORNER.max(1e3 * self.settings.tolerance)
     }
 
     /// Refuses momenta and Lagrangians that jump.

@@ -46,19 +46,17 @@ impl<T: Scalar> Run<T> {
             latest.all(|[before, after]| after > before)
                 && force(&looks[looks.len() - 1]) > LARGE * force(&looks[0])
         };
-        let grows: Vec<usize> = (0..pressed.len()).filter(grows).collect();
         let last = &looks[looks.len() - 1];
-        let mut jams = |&k: &usize| {
+        let k = (0..pressed.len()).filter(grows).find(|&k| {
             let smooth = self.force_without_friction(pressed[k]);
             smooth.is_some_and(|smooth| smooth.abs() < BY_ITSELF * last[k].abs())
-        };
-        let k = grows.into_iter().find(|k| jams(k))?;
+        })?;
         Some(Error::Unbounded {
             time: self.now.t.value(),
             mode: self.now.mode.display(d).to_string(),
             item: d.contacts[pressed[k]].name,
             from: looks[0][k],
-            to: looks[looks.len() - 1][k],
+            to: last[k],
         })
     }
 

@@ -13,26 +13,36 @@ use crate::modes::guard::Guard;
 const ROUNDING: f64 = 1e-12;
 
 impl<T: Scalar> Run<T> {
+    /// Whether there are branches that the motion depends on.
+    fn has_sides(&self) -> bool {
+        let mut branches = self.description().branches.iter();
+        branches.any(|branch| !branch.after_solve)
+    }
+
     /// Puts the branches on their sides that the mode does not watch.
     pub(super) fn take_sides_not_watched(&mut self) {
-        let d = self.description();
-        if d.branches.iter().all(|branch| branch.after_solve) {
+        if !self.has_sides() {
             return;
         }
         self.dynamics.set_mode(&self.now.mode);
         let guards = &self.switcher.table.of(&self.dynamics).guards;
         self.switcher.watched.clone_from(guards);
+        let mut branches = self.description().branches.iter().enumerate();
+        let watched = &self.switcher.watched;
+        if branches.all(|(b, branch)| branch.after_solve || watched.contains(&Guard::Branch(b))) {
+            return;
+        }
         self.take_sides(|watched, _, guard| (!watched && guard != 0.0).then_some(guard > 0.0));
     }
 
     /// Remembers the conditions of branches just before an impact, from the values of all rows.
     pub(super) fn note_conditions(&mut self) {
-        let d = self.description();
         self.switcher.conditions.clear();
-        if d.branches.iter().all(|branch| branch.after_solve) {
+        if !self.has_sides() {
             return;
         }
-        let conditions = (d.branches.iter()).map(|branch| match branch.after_solve {
+        let branches = self.description().branches.iter();
+        let conditions = branches.map(|branch| match branch.after_solve {
             true => 0.0,
             false => self.dynamics.motion(branch.guard).value(),
         });
@@ -108,10 +118,10 @@ impl<T: Scalar> Run<T> {
     /// Branches are at their border where everything that touches and rests holds them there: a contact that closes may not do so at the
     /// root of their guard.
     pub(super) fn balance_what_is_held(&mut self, facts: &mut SwitchFacts) {
-        let d = self.description();
-        if d.branches.iter().all(|branch| branch.after_solve) {
+        if !self.has_sides() {
             return;
         }
+        let d = self.description();
         let mode = &mut self.switcher.scratch_mode;
         mode.clone_from(&self.now.mode);
         mode.contacts.copy_from_slice(&facts.touching);

@@ -156,10 +156,12 @@ impl<T: Runnable> Work<T> {
             }
             if finest || stays == PATIENCE {
                 let estimate = self.trajectory.estimate();
-                let difference = estimate.map(|estimate| &estimate.difference);
-                let reason = difference.map(|difference| match stays == PATIENCE {
-                    true => of_rounding(difference, best),
-                    false => of_tolerance(difference, &settings),
+                let reason = estimate.map(|Estimate { difference, .. }| {
+                    let why = match stays == PATIENCE {
+                        true => of_rounding(best),
+                        false => of_tolerance(difference.error(), &settings),
+                    };
+                    reason(difference, &why)
                 });
                 return Err(inexact(reason.unwrap_or_default()));
             }
@@ -203,41 +205,33 @@ impl<T: Runnable> Work<T> {
     }
 }
 
-/// Why runs do not agree that are as exact as numbers are, and what would help.
-fn of_rounding(difference: &Difference, best: f64) -> String {
+/// Why runs do not agree, and what would help: that they part, or how far off what differs is, and `why`.
+fn reason(difference: &Difference, why: &str) -> String {
+    if let Some(parting) = &difference.parting {
+        return format!("the last two runs part at {parting}; end before that");
+    }
+    let what = match difference.event_error {
+        Some(error) if error > difference.state_error => "the times of events differ".to_owned(),
+        _ => format!("`{}` differs", difference.coordinate),
+    };
+    format!("{what} by {why}")
+}
+
+/// The part of a reason where runs are as exact as numbers are.
+fn of_rounding(best: f64) -> String {
     let growth = (best / f64::EPSILON).max(1.0).ln();
-    part(difference).unwrap_or_else(|what| {
-        format!(
-            "{what} by {best:.1e} however tight the tolerance is, from rounding that grows by e^{growth:.0}; end earlier, or ask \
-             for less"
-        )
-    })
+    format!(
+        "{best:.1e} however tight the tolerance is, from rounding that grows by e^{growth:.0}; end earlier, or ask \
+         for less"
+    )
 }
 
 /// The same where the method has no tighter tolerance.
-fn of_tolerance(difference: &Difference, settings: &Settings) -> String {
+fn of_tolerance(error: f64, settings: &Settings) -> String {
     let help = match settings.method {
         Method::Auto | Method::Taylor => "end earlier, or ask for less",
         _ => "the default method, `auto`, goes further",
     };
-    part(difference).unwrap_or_else(|what| {
-        format!(
-            "{what} by {:.1e} at the tightest tolerance that this method has, {:.1e}; {help}",
-            difference.error(),
-            settings.tolerance
-        )
-    })
-}
-
-/// That two runs part, or else what differs.
-fn part(difference: &Difference) -> Result<String, String> {
-    if let Some(parting) = &difference.parting {
-        return Ok(format!(
-            "the last two runs part at {parting}; end before that"
-        ));
-    }
-    Err(match difference.event_error {
-        Some(error) if error > difference.state_error => "the times of events differ".to_owned(),
-        _ => format!("`{}` differs", difference.coordinate),
-    })
+    let tightest = settings.tolerance;
+    format!("{error:.1e} at the tightest tolerance that this method has, {tightest:.1e}; {help}")
 }

@@ -82,6 +82,14 @@ impl<T: Scalar> Collision<T> {
         self.g(i, i).value().max(0.0).sqrt()
     }
 
+    /// Σ √Gⱼⱼ |Λⱼ|: beside it rounding of what an impulse does in other rows is small.
+    pub fn effort(&self, impulses: &[T]) -> f64 {
+        let impulses = impulses.iter().enumerate();
+        impulses
+            .map(|(j, x)| self.strength(j) * x.value().abs())
+            .sum()
+    }
+
     /// Gᵢⱼ
     pub fn g(&self, i: usize, j: usize) -> T {
         self.response[i * self.size + j]

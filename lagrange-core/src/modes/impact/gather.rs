@@ -139,14 +139,10 @@ impl<T: Scalar> Gathering<T> {
         let inertia = |j: usize| self.matrix[j * size + j].value().abs();
         let scale = &mut self.scale;
         scale.clear();
-        scale.extend(
-            (0..n)
-                .map(|j| inertia(j).sqrt())
-                .map(|root| match root > 0.0 {
-                    true => root.recip(),
-                    false => 0.0,
-                }),
-        );
+        scale.extend((0..n).map(|j| match inertia(j) > 0.0 {
+            true => inertia(j).sqrt().recip(),
+            false => 0.0,
+        }));
         let length = |scale: &[f64], k: usize| {
             let parts = (0..n).map(|j| (b(k, j) * scale[j]).powi(2));
             parts.sum::<f64>().sqrt()

@@ -228,8 +228,7 @@ impl<T: Scalar> Collider<T> {
             let effect = turns.impulses[row].value() * c.g(row, row).value();
             outcome.struck[touch.contact] = effect > turns.noise[row];
         }
-        let efforts = turns.impulses.iter().enumerate();
-        let effort: f64 = efforts.map(|(j, x)| c.strength(j) * x.value().abs()).sum();
+        let effort = c.effort(&turns.impulses);
         outcome.slips.clear();
         outcome.slips.resize(d.frictions.len(), 0.0);
         for rub in &c.rubs {

@@ -88,8 +88,7 @@ impl<T: Scalar> Turns<T> {
                 .push(rounding::<T>(ROUNDING) * *span + rounding::<T>(TERMS) * terms);
         }
         // What an impulse does in other rows is known to rounding of what it does in its own.
-        let impulses = self.impulses.iter().enumerate();
-        let effort: f64 = impulses.map(|(j, x)| c.strength(j) * x.value().abs()).sum();
+        let effort = c.effort(&self.impulses);
         for (i, noise) in self.noise.iter_mut().enumerate() {
             *noise += rounding::<T>(TERMS) * c.strength(i) * effort;
         }

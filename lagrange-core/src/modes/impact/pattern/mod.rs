@@ -229,8 +229,7 @@ impl<T: Scalar> Pattern<T> {
         self.after.clear();
         self.noise.clear();
         // What an impulse does in other rows is known to rounding of what it does in its own.
-        let efforts = self.impulses.iter().enumerate();
-        let effort: f64 = efforts.map(|(j, x)| c.strength(j) * x.value().abs()).sum();
+        let effort = c.effort(&self.impulses);
         for i in 0..c.size {
             let (mut rate, mut size) = (phase.rates[i], phase.rates[i].value().abs());
             for (j, &impulse) in self.impulses.iter().enumerate() {

@@ -57,8 +57,7 @@ impl<T: Scalar> Turned<T> {
         let Self {
             collision: c, axes, ..
         } = self;
-        let sizes = found.impulses.iter().enumerate();
-        let effort: f64 = sizes.map(|(j, x)| c.strength(j) * x.value().abs()).sum();
+        let effort = c.effort(&found.impulses);
         let mut most = 0.0_f64;
         for (bearing, axes) in c.bearings.iter().zip(axes) {
             let turned = bearing.impulse(&found.impulses);
