@@ -3,9 +3,6 @@
 //!
 //! A scene is one file in [`scenes`] and one line in [`catalogue`].
 
-#[macro_use]
-extern crate lagrange_macros;
-
 pub mod catalogue;
 mod closed_form;
 pub mod reference;

@@ -1,7 +1,7 @@
 //! A pendulum in Cartesian coordinates: the plainest problem of index 3.
 
 use crate::closed_form::pendulum;
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 use lagrange_program::closed_form::ClosedForm;
 
 /// A point mass swings on a massless rod, described by x and y alone: the rod is a constraint.

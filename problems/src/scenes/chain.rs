@@ -1,6 +1,6 @@
 //! Long hanging chains: one declaration, three lengths.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A chain of so many links.
 macro_rules! chain {

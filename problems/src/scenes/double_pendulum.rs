@@ -1,6 +1,6 @@
 //! Two rods, one hung from the other: smooth, and chaotic.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A double pendulum swings in a plane: two point masses on massless rods.
 ///

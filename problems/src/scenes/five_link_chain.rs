@@ -1,6 +1,6 @@
 //! A hanging chain, written once for any number of links.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A chain of five links swings in a plane: point masses at the ends of massless rods.
 ///

@@ -1,7 +1,7 @@
 //! A planet on an eccentric orbit.
 
 use crate::closed_form::orbit;
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 use lagrange_program::closed_form::ClosedForm;
 
 /// A body of unit mass orbits a fixed centre that attracts it with μ/r².

@@ -1,6 +1,6 @@
 //! A mass rides on a wheel that is free to roll away under it.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A small mass carried up and thrown off by the rim of a rolling wheel.
 ///

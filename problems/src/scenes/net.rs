@@ -1,6 +1,6 @@
 //! A net of point masses and springs in space.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A net of eight by eight knots hangs by its corners from four hooks and drops under its own weight.
 ///

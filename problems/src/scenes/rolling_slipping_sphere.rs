@@ -1,6 +1,6 @@
 //! A real ball on a sphere: it rolls, slips, and only then leaves.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A solid sphere rolls down a fixed spherical shell, begins to slip, leaves and falls.
 ///

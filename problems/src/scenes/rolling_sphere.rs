@@ -1,7 +1,7 @@
 //! A ball rolls down a sphere: where does it leave?
 
 use crate::closed_form::slide;
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 use lagrange_program::closed_form::ClosedForm;
 
 /// A solid sphere rolls without slipping down a fixed spherical shell, leaves it and falls, still spinning.

@@ -1,6 +1,6 @@
 //! A ball inside a hollow sphere: swings, slips, goes round, or falls off on the way.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A solid sphere moves inside a fixed hollow sphere, in a vertical plane.
 ///

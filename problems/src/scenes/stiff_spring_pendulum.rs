@@ -1,6 +1,6 @@
 //! A pendulum whose rod is a very stiff spring: two time scales.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A point mass swings on a spring so stiff that it is almost a rod.
 ///

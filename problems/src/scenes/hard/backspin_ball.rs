@@ -1,6 +1,6 @@
 //! A ball with backspin slides, turns round and rolls back.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A solid ball is set down on the floor with a speed forward and a spin backward.
 ///

@@ -1,6 +1,6 @@
 //! A beam on three supports: nobody knows what each of them carries, and yet it is certain when it tips.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A heavy beam lies on three supports; a load rolls along it and beyond the last support.
 ///

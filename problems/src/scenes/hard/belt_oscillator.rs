@@ -1,6 +1,6 @@
 //! A block on a moving belt, held by a spring: it sticks and slips for ever.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A block rides on a belt until its spring is stronger than static friction, slides back, and is caught again.
 ///

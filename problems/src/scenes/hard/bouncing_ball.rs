@@ -1,6 +1,6 @@
 //! A ball that bounces infinitely often in finite time.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A ball falls, bounces ever lower, and comes to rest.
 ///

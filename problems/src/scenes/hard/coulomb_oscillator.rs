@@ -1,6 +1,6 @@
 //! A mass on a spring with dry friction swings a few times and stops, not at the middle.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A block on a rough floor is pulled by a spring.
 ///

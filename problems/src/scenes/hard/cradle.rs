@@ -1,6 +1,6 @@
 //! Newton's cradle: one ball hits two that touch.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// Three equal balls on a line, the second and third touching, struck by the first.
 ///

@@ -1,6 +1,6 @@
 //! A billiard ball with side spin: its path bends, then it rolls.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A ball slides on a level table with any spin.
 ///

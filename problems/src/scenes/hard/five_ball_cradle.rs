@@ -1,6 +1,6 @@
 //! The cradle as one sees it: blows are passed on, one after the other.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// Five equal balls on a line; one, two or three of them strike the others, which touch.
 ///

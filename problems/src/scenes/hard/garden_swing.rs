@@ -1,6 +1,6 @@
 //! A garden swing in space: a loop of four hinges, three of whose conditions are too many.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A seat on two equal hangers, all three of them bodies in space, and each of the four joints a hinge with five conditions.
 ///

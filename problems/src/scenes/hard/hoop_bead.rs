@@ -1,6 +1,6 @@
 //! A bead on a wire hoop with friction: the wire pulls, then pushes.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A bead slides on an upright wire hoop. Its friction is μ|N|, and N changes its sign where the bead would leave a groove.
 ///

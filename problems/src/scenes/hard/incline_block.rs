@@ -1,6 +1,6 @@
 //! A block slides sideways on an incline: its slip turns downhill and stops on the way, or never.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A block is pushed across an incline; the friction turns with the slip.
 ///

@@ -1,6 +1,6 @@
 //! A ladder slides down a wall: where does it leave it?
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A uniform ladder slides from rest, without friction, along a wall and a floor.
 ///

@@ -1,6 +1,6 @@
 //! A pendulum in Cartesian coordinates, for a hundred thousand periods.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A mass on a rod: the rod is a condition on x and y, not a coordinate.
 ///

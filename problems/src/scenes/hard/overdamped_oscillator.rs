@@ -1,6 +1,6 @@
 //! An oscillator with a damper so strong that its two rates of decay are far apart.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A mass on a spring, in a damper that lets it creep.
 ///

@@ -1,6 +1,6 @@
 //! Painlevé's rod: rigid friction with one answer, with two, and with none.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A rod slides with its tip on a rough floor, leaning away from the direction it slides in: chalk pushed over a board.
 ///

@@ -1,6 +1,6 @@
 //! A beam on three parallel cranks, one of them too many, turns through its dead positions.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A heavy beam on three equal parallel cranks: a locomotive's coupling rod.
 ///

@@ -1,6 +1,6 @@
 //! A free particle in polar coordinates passes close to their origin.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// Nothing acts on a particle; it moves straight past the origin at a tiny distance d.
 ///

@@ -1,6 +1,6 @@
 //! A rattleback: spun the wrong way it begins to rattle, stops, and turns back.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// The lower half of an ellipsoid rolls without slipping on a plane, its axes of inertia skewed to those of its shape.
 ///

@@ -1,6 +1,6 @@
 //! A block rocks from corner to corner, ever faster, until it stands.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A slender block rocks on its two lower corners, which do not slip.
 ///

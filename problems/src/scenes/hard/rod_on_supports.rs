@@ -1,6 +1,6 @@
 //! A rod on two supports is pulled until it slides, and tips over the one ahead.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A rod lies on two edges; a force that grows with time pulls it along.
 ///

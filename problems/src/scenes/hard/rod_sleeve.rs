@@ -1,6 +1,6 @@
 //! A sleeve on a turning rod: slip and normal force vanish together.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A sleeve slides on a rod that turns at a constant rate in a level plane.
 ///

@@ -1,6 +1,6 @@
 //! A thin disk rolls on the floor, leans over almost flat, and comes up again.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A uniform thin disk rolls without slipping on a horizontal plane.
 ///

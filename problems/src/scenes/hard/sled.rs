@@ -1,6 +1,6 @@
 //! A sled on three runners, one too many, slides and comes to rest.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A block with three points that touch the floor in a row slides and is stopped by friction.
 ///

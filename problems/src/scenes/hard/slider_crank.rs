@@ -1,6 +1,6 @@
 //! A slider-crank runs through its dead centres; with equal crank and rod, also through its branching point.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A crank with a flywheel drives a slider through a massless rod.
 ///

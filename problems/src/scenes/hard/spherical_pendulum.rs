@@ -1,6 +1,6 @@
 //! A spherical pendulum passes its pole, where its coordinates fail.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A pendulum on a sphere, by θ from the bottom and the azimuth φ, swings past the bottom at a tiny distance.
 ///

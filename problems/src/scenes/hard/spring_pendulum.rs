@@ -1,6 +1,6 @@
 //! A pendulum on a very stiff spring: two time scales ten thousand apart.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A mass swings on a spring so stiff that it hardly stretches, and rings at √(k/m).
 ///

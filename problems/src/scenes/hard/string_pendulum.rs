@@ -1,6 +1,6 @@
 //! A pendulum on a string goes slack, flies, and is caught.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A mass on an inextensible string is kicked so that it rises above the support, but not all the way.
 ///

@@ -1,6 +1,6 @@
 //! A table on four legs is pushed until it slides.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A table stands on four legs on a rough floor; a force that grows with time pushes it.
 ///

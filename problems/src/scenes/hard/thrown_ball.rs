@@ -1,6 +1,6 @@
 //! A thrown ball bounces, grips the floor in one of its bounces, and rolls away.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A solid ball with friction is thrown sideways, without spin, from a height.
 ///

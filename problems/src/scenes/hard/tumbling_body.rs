@@ -1,6 +1,6 @@
 //! A free rigid body turns about the ends of its middle axis, and keeps flipping over.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A rigid body with three different moments of inertia, free in space, its attitude by a unit quaternion.
 ///

@@ -1,6 +1,6 @@
 //! A puck is pushed off by a force that turns: where its slip begins, and how.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A puck rests on a table until a growing, turning force is stronger than friction; its slip begins in a direction that is part
 /// of the answer, and turns from the first instant.

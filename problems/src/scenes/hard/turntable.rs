@@ -1,6 +1,6 @@
 //! A ball rolls on a turning table, on a circle that is not the table's.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A solid ball rolls without slipping on a table that turns at a constant rate.
 ///

@@ -1,6 +1,6 @@
 //! A double pendulum whose masses differ by eight powers of ten.
 
-use lagrange_core::prelude::*;
+use lagrange_macros::Lagrangian;
 
 /// A double pendulum with a heavy and a light mass.
 ///
