@@ -1,6 +1,7 @@
 //! A pendulum in Cartesian coordinates: the plainest problem of index 3.
 
 use crate::closed_form::pendulum;
+use lagrange_core::prelude::State;
 use lagrange_macros::Lagrangian;
 use lagrange_program::closed_form::ClosedForm;
 

@@ -1,6 +1,7 @@
 //! A planet on an eccentric orbit.
 
 use crate::closed_form::orbit;
+use lagrange_core::prelude::State;
 use lagrange_macros::Lagrangian;
 use lagrange_program::closed_form::ClosedForm;
 

@@ -1,6 +1,7 @@
 //! Where does a mass that slides down a smooth sphere leave it?
 
 use crate::closed_form::slide;
+use lagrange_core::prelude::State;
 use lagrange_macros::Lagrangian;
 use lagrange_program::closed_form::ClosedForm;
 

@@ -1,6 +1,7 @@
 //! A ball rolls down a sphere: where does it leave?
 
 use crate::closed_form::slide;
+use lagrange_core::prelude::State;
 use lagrange_macros::Lagrangian;
 use lagrange_program::closed_form::ClosedForm;
 
