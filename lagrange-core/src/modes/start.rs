@@ -5,9 +5,10 @@ use super::{
     status::{ConstraintStatus, slack},
 };
 use crate::arithmetic::{Scalar, epsilon};
-use crate::dynamics::{Dynamics, Residual, row_name};
+use crate::dynamics::{Dynamics, EvaluationError, Residual, row_name};
 use crate::error::{Error, Level};
 use crate::integrate::Tolerance;
+use crate::mode::{FrictionMode, Mode};
 use crate::state::{FixedComponents, State};
 
 /// Velocities are changed by no more than this, relative to their size, unless a start is to be moved.
@@ -36,15 +37,21 @@ pub fn begin<T: Scalar>(
     } else {
         status.refuse_violations(dynamics.description(), tolerance.strictness())?;
     }
+    if project {
+        // A slip that is zero in a state off its constraints may be so by what the state does not say: it is judged on them.
+        let mut mode = status.mode.clone();
+        if mode.release_sticking() {
+            dynamics.set_mode(&mode);
+            project_onto(dynamics, t, state, &mode)?;
+            status.look(dynamics, t, state, tolerance);
+        }
+    }
     dynamics.set_mode(&status.mode);
     let (position, rate) = dynamics.residuals(t, &state.q, &state.v);
     if !project {
         refuse_other_velocities(dynamics, rate)?;
     }
-    let moved = dynamics.project(t, &mut state.q, &mut state.v, 0.0);
-    let moved = moved
-        .map_err(|e| Error::from_evaluation(e, t.value(), &status.mode, dynamics.description()))?;
-    if moved {
+    if project_onto(dynamics, t, state, &status.mode)? {
         if !project {
             refuse_other_positions(
                 dynamics,
@@ -82,8 +89,7 @@ fn leave_surfaces<T: Scalar>(
         contacts.for_each(|(contact, closed)| *contact |= closed);
         dynamics.set_mode(&mode);
         let velocities = state.v.clone();
-        let outcome = dynamics.project(t, &mut state.q, &mut state.v, 0.0);
-        outcome.map_err(|e| Error::from_evaluation(e, t.value(), &mode, dynamics.description()))?;
+        project_onto(dynamics, t, state, &mode)?;
         state.v = velocities;
         status.look(dynamics, t, state, tolerance);
     }
@@ -131,25 +137,103 @@ fn refuse_other_positions<T: Scalar>(
     })
 }
 
-/// See [`crate::Simulation::consistent`].
+/// Moves a state onto what holds in `mode`, which is that of `dynamics`; whether it had to.
+fn project_onto<T: Scalar>(
+    dynamics: &mut Dynamics<T>,
+    t: T,
+    state: &mut State<T>,
+    mode: &Mode,
+) -> Result<bool, Error> {
+    let moved = dynamics.project(t, &mut state.q, &mut state.v, 0.0);
+    moved.map_err(|e| Error::from_evaluation(e, t.value(), mode, dynamics.description()))
+}
+
+/// See [`crate::Simulation::consistent`]. `begun` is the mode in which the motion begins in `reference`, if it does.
 pub fn consistent<T: Scalar>(
     dynamics: &mut Dynamics<T>,
     time: f64,
     tolerance: Tolerance<'_>,
     reference: &State<T>,
     fixed: &FixedComponents<T>,
+    begun: Option<&Mode>,
 ) -> Result<State<T>, Error> {
-    let n = dynamics.description().coordinates.len();
-    reference.check_dimension(n)?;
+    let d = dynamics.description();
+    reference.check_dimension(d.coordinates.len())?;
     let mut state = reference.clone();
-    let [positions, velocities] = fixed.write(&mut state)?;
+    let held = fixed.write(&mut state)?;
     domain::check_parameters(dynamics, time)?;
     let t = T::from_f64(time);
-    let mut found = ConstraintStatus::new(dynamics.description());
-    found.look(dynamics, t, reference, tolerance);
-    dynamics.set_mode(&found.mode);
-    let (q, v) = (&mut state.q, &mut state.v);
-    let outcome = dynamics.project_holding(t, q, v, &positions, &velocities);
-    outcome.map_err(|e| Error::from_evaluation(e, time, &found.mode, dynamics.description()))?;
-    Ok(state)
+    let mut status = ConstraintStatus::new(d);
+    status.look(dynamics, t, reference, tolerance);
+    let mut mode = status.mode;
+    for (f, friction) in mode.frictions.iter_mut().enumerate() {
+        // A slip may be zero for an instant, as that of a slider at its dead centre.
+        if begun.is_some_and(|begun| begun.frictions[f] != FrictionMode::Stick) {
+            *friction = FrictionMode::Inactive;
+        }
+    }
+    let mut project = Holding {
+        dynamics,
+        t,
+        state: &state,
+        held: &held,
+    };
+    let outcome = match project.onto(&mode) {
+        Err(_) => {
+            mode = project.let_go(&mode);
+            project.onto(&mode)
+        }
+        outcome => outcome,
+    };
+    outcome.map_err(|e| Error::from_evaluation(e, time, &mode, d))
+}
+
+/// A projection that leaves some numbers of a state as they are.
+struct Holding<'a, T: Scalar> {
+    dynamics: &'a mut Dynamics<T>,
+    t: T,
+    state: &'a State<T>,
+    held: &'a [Vec<bool>; 2],
+}
+
+impl<T: Scalar> Holding<'_, T> {
+    /// The state on what holds in `mode`.
+    fn onto(&mut self, mode: &Mode) -> Result<State<T>, EvaluationError> {
+        let mut state = self.state.clone();
+        let [positions, velocities] = self.held;
+        self.dynamics.set_mode(mode);
+        let (q, v) = (&mut state.q, &mut state.v);
+        self.dynamics
+            .project_holding(self.t, q, v, positions, velocities)?;
+        Ok(state)
+    }
+
+    /// The mode without the contacts that what is held lifts, and the frictions that it moves.
+    fn let_go(&mut self, mode: &Mode) -> Mode {
+        let mut kept = mode.clone();
+        kept.contacts.fill(false);
+        kept.frictions.fill(FrictionMode::Inactive);
+        for c in 0..mode.contacts.len() {
+            kept.contacts[c] = mode.contacts[c];
+            kept.contacts[c] &= !self.holds_gap(c) || self.onto(&kept).is_ok();
+        }
+        for f in 0..mode.frictions.len() {
+            let presses = self.dynamics.description().frictions[f].normal;
+            if mode.frictions[f] == FrictionMode::Stick && presses.presses(|c| kept.contacts[c]) {
+                kept.frictions[f] = FrictionMode::Stick;
+                if self.onto(&kept).is_err() {
+                    kept.frictions[f] = FrictionMode::Inactive;
+                }
+            }
+        }
+        kept
+    }
+
+    /// Whether the gap of a contact, or its rate, is given by what is held alone.
+    fn holds_gap(&self, contact: usize) -> bool {
+        let d = self.dynamics.description();
+        let gap = d.rows[d.contacts[contact].row].jacobian;
+        let mut held = self.held.iter();
+        held.any(|held| gap.iter().all(|&(j, _)| held[j]))
+    }
 }

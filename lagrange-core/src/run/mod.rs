@@ -199,9 +199,29 @@ impl<T: Scalar> Run<T> {
         reference: &State<T>,
         fixed: &FixedComponents<T>,
     ) -> Result<State<T>, Error> {
+        let begun = self.mode_at(time, reference);
         let tolerance = self.settings.per_step();
-        self.dynamics.restart();
-        start::consistent(&mut self.dynamics, time, tolerance, reference, fixed)
+        let dynamics = &mut self.dynamics;
+        dynamics.restart();
+        start::consistent(
+            dynamics,
+            time,
+            tolerance,
+            reference,
+            fixed,
+            begun.as_ref(),
+        )
+    }
+
+    /// The mode in which the motion begins in a state, or next to it where it is off its constraints; `None` if it does not begin.
+    fn mode_at(&mut self, time: f64, state: &State<T>) -> Option<Mode> {
+        let project = core::mem::replace(&mut self.settings.project_start, true);
+        let mut record = self.recorder.trajectory.clone();
+        let begun = self.launch(state, time..time, &mut record);
+        self.settings.project_start = project;
+        let mode = begun.is_ok().then(|| self.now.mode.clone());
+        self.land(&mut record);
+        mode
     }
 
     /// An empty trajectory.
