@@ -7,6 +7,7 @@
 use super::Run;
 use super::hit::Hit;
 use crate::arithmetic::Scalar;
+use crate::arithmetic::products::ROW;
 use crate::error::Error;
 use crate::modes::composite::{self, CompositeGuard};
 use crate::modes::guard::Guard;
@@ -27,6 +28,9 @@ const WITHIN: [f64; 3] = [0.25, 0.5, 0.75];
 /// and watched from there on if they have come this near to zero, relative.
 const NEARBY: f64 = 0.5;
 
+/// The last terms of forces in a step are no larger than this share of the first ones.
+const LAST_TERMS: f64 = 1e-3;
+
 impl<T: Scalar> Run<T> {
     /// Looks at the forces at the last value of the dynamics, in the mode of the run.
     pub(super) fn look_at_redundant_forces(&mut self) {
@@ -34,6 +38,32 @@ impl<T: Scalar> Run<T> {
         self.switcher.redundant.follow(&self.dynamics);
         if was_open || self.switcher.redundant.has_open() {
             self.list_guards();
+        }
+    }
+
+    /// How long a step may be for what is looked at within it to tell how undetermined forces change, by the series at hand: their guards do
+    /// not bound it as long as none is near.
+    pub(super) fn longest_of_shared_loads(&self, order: usize) -> f64 {
+        if !self.switcher.redundant.has_open() {
+            return f64::INFINITY;
+        }
+        let mut sizes = [0.0_f64; ROW];
+        for &row in self.dynamics.acting_rows() {
+            for (size, force) in sizes.iter_mut().zip(self.dynamics.force_series(row)) {
+                *size = size.max(force.value().abs());
+            }
+        }
+        let until = |last: usize| {
+            let share = |first: usize| LAST_TERMS * sizes[first] / sizes[last];
+            let times = (0..=last / 2).map(|first| share(first).powf(1.0 / (last - first) as f64));
+            times.fold(0.0, f64::max)
+        };
+        // Every other term of a vibration is zero.
+        let longest = until(order).min(until(order - 1));
+        if longest > 0.0 {
+            longest
+        } else {
+            f64::INFINITY
         }
     }
 

@@ -159,7 +159,7 @@ impl<T: Scalar> Run<T> {
             true => MORE_EXACTLY * moves,
             false => moves,
         };
-        let moves = moves.min(longest);
+        let moves = moves.min(longest).min(self.longest_of_shared_loads(order));
         let mut h = self.stepper.guarded.map_or(moves, |h| h.min(moves));
         let mut guarded = h < moves;
         let mut closer = 0;
@@ -541,6 +541,9 @@ impl<T: Scalar> Run<T> {
             return self.taylor_step();
         }
         let mut h = first.map_err(|e| self.no_step(e))?.min(longest);
+        if self.switcher.redundant.has_open() && self.expand().is_ok() {
+            h = h.min(self.longest_of_shared_loads(self.stepper.order));
+        }
         let shortest = KINK * self.resolution(h);
         let (mut tries, mut shortened) = (0, 0);
         while tries < MOST_TRIES {
