@@ -45,6 +45,12 @@ impl Sizes {
         self.take_rows(dynamics);
     }
 
+    /// Takes what drives for no less than this; what it is then. Loads that cancel do not make forces small that they are shared among.
+    pub fn raise_drive(&mut self, least: f64) -> f64 {
+        self.drive = self.drive.max(least);
+        self.drive
+    }
+
     /// Takes the rows that act from the last value, in another mode at the same state: a friction that slips drives nothing, and where its
     /// row nearly vanishes it would have to drive without bound to hold.
     pub fn take_rows<T: Scalar>(&mut self, dynamics: &Dynamics<T>) {

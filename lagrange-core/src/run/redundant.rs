@@ -29,7 +29,7 @@ const WITHIN: [f64; 3] = [0.25, 0.5, 0.75];
 const NEARBY: f64 = 0.5;
 
 /// The last terms of forces in a step are no larger than this share of the first ones.
-const LAST_TERMS: f64 = 1e-3;
+const LAST_TERMS: f64 = 1e-6;
 
 impl<T: Scalar> Run<T> {
     /// Looks at the forces at the last value of the dynamics, in the mode of the run.

@@ -86,7 +86,7 @@ impl<T: Scalar> Switcher<T> {
     pub(super) fn restart(&mut self) {
         self.impacts.iter_mut().for_each(Impacts::restart);
         self.train.restart();
-        self.redundant.clear();
+        self.redundant.restart();
         self.stuck.clear();
         self.decider.restart();
     }

@@ -31,6 +31,8 @@ pub struct RedundantForces<T> {
     signs: Vec<f64>,
     bounds: Bounds,
     sizes: Sizes,
+    /// What has driven most so far.
+    strongest: f64,
 }
 
 /// What rounding leaves of a bound, relative to its size.
@@ -43,6 +45,12 @@ const MOST_SIGNS: usize = 8;
 const NO_WEIGHT: f64 = 1e-12;
 
 impl<T: Scalar> RedundantForces<T> {
+    /// Forgets what belongs to another motion.
+    pub fn restart(&mut self) {
+        self.clear();
+        self.strongest = 0.0;
+    }
+
     /// Forgets everything: all forces are determined.
     pub fn clear(&mut self) {
         self.bounds.clear();
@@ -73,6 +81,7 @@ impl<T: Scalar> RedundantForces<T> {
         }
         self.least = dynamics.least_norm_of_acting();
         self.sizes.take(dynamics);
+        self.strongest = self.sizes.raise_drive(self.strongest);
         true
     }
 
