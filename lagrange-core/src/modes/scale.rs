@@ -45,10 +45,9 @@ impl Sizes {
         self.take_rows(dynamics);
     }
 
-    /// Takes what drives for no less than this; what it is then. Loads that cancel do not make forces small that they are shared among.
-    pub fn raise_drive(&mut self, least: f64) -> f64 {
-        self.drive = self.drive.max(least);
-        self.drive
+    /// What drives, √kg times m/s². It may be taken for more: loads that cancel do not make forces small that they are shared among.
+    pub fn drive(&mut self) -> &mut f64 {
+        &mut self.drive
     }
 
     /// Takes the rows that act from the last value, in another mode at the same state: a friction that slips drives nothing, and where its

@@ -242,9 +242,9 @@ impl<T: Scalar> Run<T> {
         }
     }
 
-    /// How far a composite guard is from the zero that it was located as.
+    /// How far a composite guard is from the zero that it was located as, beside what drives now.
     pub(super) fn composite_residue(&self, composite: &CompositeGuard) -> f64 {
-        self.joint_value(composite).abs()
+        (self.joint_value(composite) * self.switcher.redundant.raised()).abs()
     }
 
     /// A composite guard at the last value of the dynamics.

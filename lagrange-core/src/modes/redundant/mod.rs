@@ -31,8 +31,10 @@ pub struct RedundantForces<T> {
     signs: Vec<f64>,
     bounds: Bounds,
     sizes: Sizes,
-    /// What has driven most so far.
+    /// What has driven most so far,
     strongest: f64,
+    /// and by how much that is more than what drives now.
+    raised: f64,
 }
 
 /// What rounding leaves of a bound, relative to its size.
@@ -81,7 +83,10 @@ impl<T: Scalar> RedundantForces<T> {
         }
         self.least = dynamics.least_norm_of_acting();
         self.sizes.take(dynamics);
-        self.strongest = self.sizes.raise_drive(self.strongest);
+        let drive = self.sizes.drive();
+        self.strongest = self.strongest.max(*drive);
+        self.raised = self.strongest / *drive;
+        *drive = self.strongest;
         true
     }
 
@@ -183,6 +188,11 @@ impl<T: Scalar> RedundantForces<T> {
     /// Whether any guard does.
     pub fn has_open(&self) -> bool {
         !self.bounds.list.is_empty()
+    }
+
+    /// By how much the sizes that composite guards are relative to are more than those of this state.
+    pub fn raised(&self) -> f64 {
+        self.raised
     }
 
     /// The composite guard that forbids the mode, or comes nearer to that than `margin` (relative): of all the smallest.
