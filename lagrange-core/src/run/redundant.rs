@@ -242,9 +242,10 @@ impl<T: Scalar> Run<T> {
         }
     }
 
-    /// How far a composite guard is from the zero that it was located as, beside what drives now.
-    pub(super) fn composite_residue(&self, composite: &CompositeGuard) -> f64 {
-        (self.joint_value(composite) * self.switcher.redundant.raised()).abs()
+    /// How far composite guard `k` is from the zero that it was located as, beside what drives now.
+    pub(super) fn composite_residue(&mut self, k: usize) -> f64 {
+        let value = self.joint_value(&self.locator.polynomials.composites[k]);
+        (value * self.switcher.redundant.raised(&self.dynamics)).abs()
     }
 
     /// A composite guard at the last value of the dynamics.

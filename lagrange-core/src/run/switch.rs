@@ -137,14 +137,14 @@ impl<T: Scalar> Run<T> {
         let ending = self.locator.fallen.iter().filter(|guard| !turned(guard));
         facts.located.extend(ending);
         facts.again = self.switcher.stuck.len() > 1;
-        for guard in &self.locator.fallen {
-            if let Guard::Composite(k) = *guard {
+        for i in 0..self.locator.fallen.len() {
+            if let Guard::Composite(k) = self.locator.fallen[i] {
                 let parts = self.locator.polynomials.composites[k]
                     .parts
                     .iter()
                     .map(|part| part.guard);
                 self.switcher.status.facts.located.extend(parts);
-                let residue = self.composite_residue(&self.locator.polynomials.composites[k]);
+                let residue = self.composite_residue(k);
                 let facts = &mut self.switcher.status.facts;
                 facts.residue = facts.residue.max(residue);
             }

@@ -31,10 +31,8 @@ pub struct RedundantForces<T> {
     signs: Vec<f64>,
     bounds: Bounds,
     sizes: Sizes,
-    /// What has driven most so far,
+    /// What has driven most so far.
     strongest: f64,
-    /// and by how much that is more than what drives now.
-    raised: f64,
 }
 
 /// What rounding leaves of a bound, relative to its size.
@@ -85,7 +83,6 @@ impl<T: Scalar> RedundantForces<T> {
         self.sizes.take(dynamics);
         let drive = self.sizes.drive();
         self.strongest = self.strongest.max(*drive);
-        self.raised = self.strongest / *drive;
         *drive = self.strongest;
         true
     }
@@ -190,9 +187,10 @@ impl<T: Scalar> RedundantForces<T> {
         !self.bounds.list.is_empty()
     }
 
-    /// By how much the sizes that composite guards are relative to are more than those of this state.
-    pub fn raised(&self) -> f64 {
-        self.raised
+    /// By how much the sizes that composite guards are relative to are more than those of the last value of `dynamics`.
+    pub fn raised(&mut self, dynamics: &Dynamics<T>) -> f64 {
+        self.sizes.take(dynamics);
+        self.strongest / *self.sizes.drive()
     }
 
     /// The composite guard that forbids the mode, or comes nearer to that than `margin` (relative): of all the smallest.
