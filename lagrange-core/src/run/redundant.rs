@@ -242,10 +242,19 @@ impl<T: Scalar> Run<T> {
         }
     }
 
-    /// How far composite guard `k` is from the zero that it was located as, beside what drives now.
-    pub(super) fn composite_residue(&mut self, k: usize) -> f64 {
-        let value = self.joint_value(&self.locator.polynomials.composites[k]);
-        (value * self.switcher.redundant.raised(&self.dynamics)).abs()
+    /// How far the composite guards that have fallen are from the zeros that they were located as, beside what drives now.
+    pub(super) fn residue_of_composites(&mut self) -> f64 {
+        let composites = &self.locator.polynomials.composites;
+        let values = self.locator.fallen.iter().map(|guard| match *guard {
+            Guard::Composite(k) => self.joint_value(&composites[k]).abs(),
+            _ => 0.0,
+        });
+        let largest = values.fold(0.0, f64::max);
+        if largest > 0.0 {
+            largest * self.switcher.redundant.raised(&self.dynamics)
+        } else {
+            0.0
+        }
     }
 
     /// A composite guard at the last value of the dynamics.

@@ -102,12 +102,15 @@ impl<T: Scalar> Run<T> {
         if !self.now.valued {
             self.evaluate()?;
         }
+        // What decides reads other numbers, and leaves them.
+        let of_composites = self.residue_of_composites();
         let facts = &mut self.switcher.status.facts;
         facts.clear(d);
-        facts.residue =
-            self.switcher
-                .decider
-                .residue(&mut self.dynamics, &self.now.mode, &self.locator.fallen);
+        facts.residue = self
+            .switcher
+            .decider
+            .residue(&mut self.dynamics, &self.now.mode, &self.locator.fallen)
+            .max(of_composites);
         facts.touching.copy_from_slice(&self.now.mode.contacts);
         for (resting, friction) in facts.resting.iter_mut().zip(&self.now.mode.frictions) {
             *resting = friction.rests();
@@ -137,16 +140,13 @@ impl<T: Scalar> Run<T> {
         let ending = self.locator.fallen.iter().filter(|guard| !turned(guard));
         facts.located.extend(ending);
         facts.again = self.switcher.stuck.len() > 1;
-        for i in 0..self.locator.fallen.len() {
-            if let Guard::Composite(k) = self.locator.fallen[i] {
+        for guard in &self.locator.fallen {
+            if let Guard::Composite(k) = *guard {
                 let parts = self.locator.polynomials.composites[k]
                     .parts
                     .iter()
                     .map(|part| part.guard);
                 self.switcher.status.facts.located.extend(parts);
-                let residue = self.composite_residue(k);
-                let facts = &mut self.switcher.status.facts;
-                facts.residue = facts.residue.max(residue);
             }
         }
         self.settle()
