@@ -35,7 +35,7 @@ impl<T: Scalar> Run<T> {
     /// Looks at the forces at the last value of the dynamics, in the mode of the run.
     pub(super) fn look_at_redundant_forces(&mut self) {
         let was_open = self.switcher.redundant.has_open();
-        self.switcher.redundant.follow(&self.dynamics);
+        self.switcher.redundant.follow(&mut self.dynamics);
         if was_open || self.switcher.redundant.has_open() {
             self.list_guards();
         }
@@ -175,9 +175,9 @@ impl<T: Scalar> Run<T> {
         }
         // What is nearer to its border than roots are may be what has just ended.
         let redundant = &mut self.switcher.redundant;
-        redundant.follow(&self.dynamics);
+        redundant.follow(&mut self.dynamics);
         let keeps = redundant.has_open() && redundant.critical(ROOT).is_none();
-        let turns = keeps || redundant.turn(&self.dynamics, ROOT);
+        let turns = keeps || redundant.turn(&mut self.dynamics, ROOT);
         if turns {
             self.locator.polynomials.composites.clear();
             self.list_guards();
@@ -193,7 +193,7 @@ impl<T: Scalar> Run<T> {
             if self.evaluate_end(part * end).is_err() {
                 continue;
             }
-            self.switcher.redundant.follow(&self.dynamics);
+            self.switcher.redundant.follow(&mut self.dynamics);
             let Some(composite) = self.switcher.redundant.critical(NEARBY) else {
                 continue;
             };
@@ -226,7 +226,7 @@ impl<T: Scalar> Run<T> {
     /// are determined).
     pub(super) fn reported_forces(&mut self, forces: &mut Vec<T>, undetermined: &mut Vec<bool>) {
         if self.dynamics.has_dependent_rows() {
-            *forces = self.switcher.redundant.report(&self.dynamics, undetermined);
+            *forces = self.switcher.redundant.report(&mut self.dynamics, undetermined);
         } else {
             undetermined.clear();
             forces.clear();
@@ -251,7 +251,7 @@ impl<T: Scalar> Run<T> {
         });
         let largest = values.fold(0.0, f64::max);
         if largest > 0.0 {
-            largest * self.switcher.redundant.raised(&self.dynamics)
+            largest * self.switcher.redundant.raised(&mut self.dynamics)
         } else {
             0.0
         }

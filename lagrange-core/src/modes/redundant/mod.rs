@@ -58,14 +58,14 @@ impl<T: Scalar> RedundantForces<T> {
     }
 
     /// Looks at the last value of `dynamics`, and chooses the signs of constraint forces that carry friction.
-    pub fn look(&mut self, dynamics: &Dynamics<T>) {
+    pub fn look(&mut self, dynamics: &mut Dynamics<T>) {
         if self.take_least(dynamics) {
             self.take_signs(dynamics);
         }
     }
 
     /// The same with the signs that were chosen last: that they hold no longer ends a mode.
-    pub fn follow(&mut self, dynamics: &Dynamics<T>) {
+    pub fn follow(&mut self, dynamics: &mut Dynamics<T>) {
         if self.signs.len() != dynamics.description().constraints.len() {
             self.look(dynamics);
         } else if self.take_least(dynamics) {
@@ -74,12 +74,13 @@ impl<T: Scalar> RedundantForces<T> {
     }
 
     /// Takes the forces of least norm, if any are undetermined.
-    fn take_least(&mut self, dynamics: &Dynamics<T>) -> bool {
+    fn take_least(&mut self, dynamics: &mut Dynamics<T>) -> bool {
         self.clear();
         if !dynamics.has_dependent_rows() {
             return false;
         }
         self.least = dynamics.least_norm_of_acting();
+        dynamics.complete_outputs();
         self.sizes.take(dynamics);
         let drive = self.sizes.drive();
         self.strongest = self.strongest.max(*drive);
@@ -123,7 +124,7 @@ impl<T: Scalar> RedundantForces<T> {
 
     /// Where the signs chosen last end: chooses others that allow forces by more than the `border`, of these those of the least forces. False: there
     /// are none.
-    pub fn turn(&mut self, dynamics: &Dynamics<T>, border: f64) -> bool {
+    pub fn turn(&mut self, dynamics: &mut Dynamics<T>, border: f64) -> bool {
         if !self.take_least(dynamics) {
             return false;
         }
@@ -188,7 +189,8 @@ impl<T: Scalar> RedundantForces<T> {
     }
 
     /// By how much the sizes that composite guards are relative to are more than those of the last value of `dynamics`.
-    pub fn raised(&mut self, dynamics: &Dynamics<T>) -> f64 {
+    pub fn raised(&mut self, dynamics: &mut Dynamics<T>) -> f64 {
+        dynamics.complete_outputs();
         self.sizes.take(dynamics);
         self.strongest / *self.sizes.drive()
     }
@@ -266,7 +268,11 @@ impl<T: Scalar> RedundantForces<T> {
 
     /// The forces of all rows at the last value of `dynamics`, and which of them are undetermined (nothing where all are
     /// determined).
-    pub fn report(&mut self, dynamics: &Dynamics<T>, undetermined: &mut Vec<bool>) -> Vec<T> {
+    pub fn report(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        undetermined: &mut Vec<bool>,
+    ) -> Vec<T> {
         undetermined.clear();
         self.look(dynamics);
         if dynamics.has_dependent_rows() {
