@@ -211,7 +211,7 @@ impl<T: Scalar> Decider<T> {
     }
 
     /// Puts composite guards in the place of those of undetermined forces.
-    fn share(&mut self, dynamics: &Dynamics<T>) {
+    fn share(&mut self, dynamics: &mut Dynamics<T>) {
         self.redundant.look(dynamics);
         self.composites.clear();
         let Self {
