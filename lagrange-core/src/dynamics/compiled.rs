@@ -296,7 +296,7 @@ impl<T: Scalar> Compiled<T> {
                     held: &self.row_needs,
                     extra: &no_series,
                     report: None,
-                    part: Part::Outputs,
+                    part: Part::Rows,
                 };
                 rows.push(Interpreted::load(system, self.planned(), &asked, numbers));
             }
@@ -334,7 +334,7 @@ impl<T: Scalar> Compiled<T> {
     fn loaded(&mut self, part: Part) -> &mut Loaded<T> {
         match part {
             Part::Solution => &mut self.interpreted,
-            Part::Outputs => &mut self.outputs,
+            Part::Outputs | Part::Rows => &mut self.outputs,
         }
     }
 }
