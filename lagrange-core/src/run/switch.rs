@@ -2,7 +2,7 @@
 
 use super::accumulation::{Impacts, Train};
 use super::{Progress, Run};
-use crate::arithmetic::{Scalar, rounding};
+use crate::arithmetic::{Scalar, epsilon, rounding};
 use crate::effects::Item;
 use crate::error::Error;
 use crate::mode::{FrictionMode, Mode};
@@ -25,6 +25,9 @@ const ENTERS: f64 = 10.0;
 
 /// A body that is closed at some points may be off by so many times more at others.
 const LEVER: f64 = 4.0;
+
+/// Sums of the terms of a step are off by no more than so many units of rounding.
+const UNITS: f64 = 8.0;
 
 /// What is no larger than this beside the terms that make it is what rounding has left of zero.
 const ROUNDING: f64 = 1e-13;
@@ -99,6 +102,14 @@ impl<T: Scalar> Run<T> {
         if !self.locator.rests.is_empty() {
             self.come_to_rest()?;
         }
+        if self
+            .locator
+            .fallen
+            .iter()
+            .any(|guard| matches!(guard, Guard::Slip(_)))
+        {
+            self.drop_rounding_of_velocities();
+        }
         if !self.now.valued {
             self.evaluate()?;
         }
@@ -150,6 +161,21 @@ impl<T: Scalar> Run<T> {
             }
         }
         self.settle()
+    }
+
+    /// Where a slip has come to zero, what rounding leaves of the velocities in the step is zero too: along a curved path a drag by |v| would
+    /// begin anew from it, at another angle.
+    fn drop_rounding_of_velocities(&mut self) {
+        let step = &self.stepper.step;
+        for (j, v) in self.now.state.v.iter_mut().enumerate() {
+            let row = step.velocity_row(j);
+            let size = row[0].value().abs() + row[1].value().abs();
+            let rest = v.value();
+            if rest != 0.0 && rest.abs() <= UNITS * epsilon::<T>() * size {
+                *v -= T::from_f64(rest);
+                self.now.valued = false;
+            }
+        }
     }
 
     /// Impact if needed, then the next mode; logs what changed. `self.switcher.status.facts` says what vanishes at this instant.
