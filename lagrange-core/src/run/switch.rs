@@ -276,6 +276,7 @@ impl<T: Scalar> Run<T> {
         let arrives = facts.arriving.contains(&true);
         let hit = arrives && self.hit(facts)?;
         if hit {
+            self.rest_where_impact_leaves_nothing(facts);
             self.take_sides_after_impact(facts);
         }
         let leaves_an_edge = |guard: &Guard| matches!(guard, Guard::Region(_));
@@ -534,11 +535,30 @@ impl<T: Scalar> Run<T> {
         Ok(())
     }
 
-    /// Which of these slips vanish once all that rests sticks.
+    /// A slip after an impact may be the error of rows that hold on: of a box that lands in the corner of a floor and a wall that move together.
+    fn rest_where_impact_leaves_nothing(&mut self, facts: &mut SwitchFacts) {
+        let d = self.description();
+        let outcome = &self.switcher.collider.outcome;
+        let is_error = |f: &usize| {
+            d.frictions[*f].normal.presses(|c| facts.touching[c])
+                && !facts.resting[*f]
+                && outcome.slips[*f] <= self.settings.tolerance
+        };
+        let mut ending = core::mem::take(&mut self.switcher.ending);
+        ending.clear();
+        ending.extend((0..d.frictions.len()).filter(is_error));
+        if !ending.is_empty() {
+            self.rest_if_nothing_is_left(&ending, facts);
+        }
+        self.switcher.ending = ending;
+    }
+
+    /// Which of these slips vanish once all that rests sticks, and what touches stays closed.
     fn rest_if_nothing_is_left(&mut self, ending: &[usize], facts: &mut SwitchFacts) {
         self.switcher.before_holding.clone_from(&self.now.state);
         let mode = &mut self.switcher.scratch_mode;
         mode.clone_from(&self.now.mode);
+        mode.contacts.copy_from_slice(&facts.touching);
         for (friction, resting) in mode.frictions.iter_mut().zip(&facts.resting) {
             if *resting {
                 *friction = FrictionMode::Stick;
