@@ -209,6 +209,8 @@ impl<T: Scalar> RungeKutta<T> {
         let mut h = self.fixed_step.map_or(h_try, |step| step.min(h_try));
         let mut obstacle = None;
         loop {
+            // What time rounds off would be a jump of fast motions.
+            h = (t + T::from_f64(h)).value() - t.value();
             let smallest = 16.0 * f64::EPSILON * t.value().abs().max(f64::MIN_POSITIVE);
             if h.is_nan() || h <= smallest {
                 let too_small = StepError::TooSmall { time: t.value(), h };
