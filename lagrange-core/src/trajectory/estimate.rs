@@ -183,8 +183,8 @@ impl Summary {
     fn end_of_impacts(&self, from: usize, contact: Subject) -> Option<(usize, usize)> {
         let coming = &self.events[from..];
         let closes = |event: &Happening| (event.0, event.1) == (contact, EventKind::Closed);
-        let found = coming.iter().position(accumulates);
-        let found = found.or_else(|| coming.iter().position(closes))?;
+        let ends = |event: &Happening| accumulates(event) || closes(event);
+        let found = coming.iter().position(ends)?;
         let time = coming[found].2;
         let after = coming[found..].iter().take_while(|event| event.2 == time);
         Some((from + found, from + found + after.count()))
