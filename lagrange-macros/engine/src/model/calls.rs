@@ -160,19 +160,26 @@ impl Elaboration<'_> {
         argument: &Expr,
         context: Context,
     ) -> Option<Value> {
-        if context.reach <= Reach::Positions {
-            let depth = Depth::Velocity;
-            self.admit(depth, context, &expr, der.into())?;
-        }
-        let value = self.value(argument, context)?;
+        // The rate of what moves by itself is as deep as that is: where no velocity may stand, the rate tells.
+        let at_rest = context.reach <= Reach::Positions;
+        let inside = match at_rest {
+            true => Context {
+                reach: Reach::Definition,
+                ..context
+            },
+            false => context,
+        };
+        let value = self.value(argument, inside)?;
         let inner = self.depth(&value.scalars());
         if inner >= Depth::Acceleration {
             self.sink.report(Code::HigherDerivative, der, &[]);
             return None;
         }
         let derivative = value.map(&mut |e| self.time_rate(e));
-        if inner == Depth::Velocity {
-            let depth = self.depth(&derivative.scalars());
+        let depth = self.depth(&derivative.scalars());
+        if at_rest {
+            self.admit(depth.min(Depth::Velocity), context, &expr, der.into())?;
+        } else if inner == Depth::Velocity {
             self.admit(depth, context, &expr, der.into())?;
         }
         Some(derivative)

@@ -78,6 +78,7 @@ fn mistakes_point_at_their_token() {
         ("contact(c: x >= 0), observe(j = der(c))", "2:33 E404"),
         ("start(s: x = y)", "2:14 E403"),
         ("start(s: x = der(y))", "2:14 E403"),
+        ("start(s: x = der(y*t))", "2:14 E403"),
         ("start(s: a = 1)", "2:10 E206"),
         ("start(s: x = 1, x = 2)", "2:17 E510"),
         ("start(s: q[k in 0..4] = 1)", "2:20 E305"),
