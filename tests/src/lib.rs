@@ -144,13 +144,27 @@ pub fn words(trajectory: &Trajectory) -> Vec<String> {
         .collect()
 }
 
-/// The first event of an item and kind, `("shell", "lost")`.
+/// The events of an item and kind, `("shell", "lost")`.
+fn events<'a>(
+    trajectory: &'a Trajectory,
+    item: &str,
+    kind: &str,
+) -> impl Iterator<Item = &'a Event<f64>> {
+    let events = trajectory.events().iter();
+    events
+        .filter(move |e| e.subject.name(trajectory.description()) == item && e.kind.word() == kind)
+}
+
+/// The first event of an item and kind.
 #[track_caller]
 pub fn event<'a>(trajectory: &'a Trajectory, item: &str, kind: &str) -> &'a Event<f64> {
-    let mut events = trajectory.events().iter();
-    let found =
-        events.find(|e| e.subject.name(trajectory.description()) == item && e.kind.word() == kind);
+    let found = events(trajectory, item, kind).next();
     found.unwrap_or_else(|| panic!("no `{item} {kind}` in {:?}", words(trajectory)))
+}
+
+/// When the events of an item and kind happen, s.
+pub fn times(trajectory: &Trajectory, item: &str, kind: &str) -> Vec<f64> {
+    events(trajectory, item, kind).map(|e| e.time).collect()
 }
 
 /// Closure of the energy ledger relative to its scale.

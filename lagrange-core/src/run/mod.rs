@@ -203,14 +203,7 @@ impl<T: Scalar> Run<T> {
         let tolerance = self.settings.per_step();
         let dynamics = &mut self.dynamics;
         dynamics.restart();
-        start::consistent(
-            dynamics,
-            time,
-            tolerance,
-            reference,
-            fixed,
-            begun.as_ref(),
-        )
+        start::consistent(dynamics, time, tolerance, reference, fixed, begun.as_ref())
     }
 
     /// The mode in which the motion begins in a state, or next to it where it is off its constraints; `None` if it does not begin.

@@ -226,7 +226,10 @@ impl<T: Scalar> Run<T> {
     /// are determined).
     pub(super) fn reported_forces(&mut self, forces: &mut Vec<T>, undetermined: &mut Vec<bool>) {
         if self.dynamics.has_dependent_rows() {
-            *forces = self.switcher.redundant.report(&mut self.dynamics, undetermined);
+            *forces = self
+                .switcher
+                .redundant
+                .report(&mut self.dynamics, undetermined);
         } else {
             undetermined.clear();
             forces.clear();

@@ -268,11 +268,7 @@ impl<T: Scalar> RedundantForces<T> {
 
     /// The forces of all rows at the last value of `dynamics`, and which of them are undetermined (nothing where all are
     /// determined).
-    pub fn report(
-        &mut self,
-        dynamics: &mut Dynamics<T>,
-        undetermined: &mut Vec<bool>,
-    ) -> Vec<T> {
+    pub fn report(&mut self, dynamics: &mut Dynamics<T>, undetermined: &mut Vec<bool>) -> Vec<T> {
         undetermined.clear();
         self.look(dynamics);
         if dynamics.has_dependent_rows() {

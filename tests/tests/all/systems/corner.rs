@@ -161,3 +161,63 @@ fn a_table_falls_back_on_both_of_its_feet() {
         }
     }
 }
+
+/// A block that a wall pushes to and fro falls onto a rough floor that moves with the wall.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    define(at = reach*sin(rate*t)),
+    kinetic = (der(x)^2 + der(y)^2)/2,
+    potential = gravity*y,
+    force(press: -press along der(x)),
+    contact(floor: y >= 0),
+    contact(wall: x >= at),
+    friction(rub on floor: slip = der(x) - der(at), static = mu_static, kinetic = mu),
+    start(falls: y = height, der(x) = der(at)),
+)]
+struct Lift {
+    press: f64,
+    gravity: f64,
+    mu_static: f64,
+    mu: f64,
+    height: f64,
+    reach: f64,
+    rate: f64,
+}
+
+/// What floor and wall carry together moves it as they move. It never slips, and errors of the wall's rate must not be a slip where it lands.
+#[test]
+fn a_block_that_lands_in_a_corner_that_moves_sticks_there() {
+    for (press, height, reach, rate) in [
+        (11.0, 0.4, 1.0, 2.0),
+        (17.0, 0.9, 0.5, 1.3),
+        (9.0, 0.2, 0.3, 1.7),
+    ] {
+        let lift = Lift {
+            press,
+            gravity: 9.81,
+            mu_static: 0.63,
+            mu: 0.48,
+            height,
+            reach,
+            rate,
+        };
+        for method in METHODS.map(|method| method.to_string()) {
+            for tolerance in [1e-6, 1e-9] {
+                let motion = run_by(&lift, (&method, tolerance), lift.at(Lift::FALLS), 1.5);
+                let asked = format!("{method} {tolerance:e}");
+                assert_eq!(words(&motion), ["floor impact", "floor closed"], "{asked}");
+                let now = motion.sampler().at(1.5).expect("recorded");
+                let acceleration = -reach * rate * rate * (rate * 1.5).sin();
+                let carried = now.force(Lift::WALL) + now.force(Lift::RUB);
+                agree(&asked, carried, press + acceleration, 100.0 * tolerance);
+                agree(
+                    &asked,
+                    now.state.q[0],
+                    reach * (rate * 1.5).sin(),
+                    10.0 * tolerance,
+                );
+            }
+        }
+    }
+}

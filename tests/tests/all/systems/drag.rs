@@ -4,7 +4,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, certified};
+use lagrange_tests::{agree, certified, run_by, times};
 
 const METHODS: [Method; 5] = [
     Method::Taylor,
@@ -181,4 +181,77 @@ fn a_rest_that_is_not_the_only_motion_is_refused() {
         .run(moving(1.0), 1.0..3.0)
         .expect("leaves");
     agree("r", run.final_state().q[0], moving(3.0).q[0], 1e-9);
+}
+
+/// A bead in a round bowl, told by where it is; and by its angle.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    define(v = der([x, y]), far = norm([x, y])),
+    kinetic = dot(v, v)/2,
+    potential = gravity*y,
+    force(air: -drag*norm(v)*v at (x, y)),
+    contact(bowl: far <= 1),
+    friction(rub on bowl: slip = (x*der(y) - y*der(x))/far, static = mu),
+    start(side: x = sin(angle), y = -cos(angle)),
+)]
+struct Bowl {
+    gravity: f64,
+    drag: f64,
+    mu: f64,
+    angle: f64,
+}
+
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(theta),
+    kinetic = der(theta)^2/2,
+    potential = -gravity*cos(theta),
+    force(air: theta = -drag*abs(der(theta))*der(theta)),
+    friction(rub: slip = der(theta), normal = gravity*cos(theta) + der(theta)^2, static = mu),
+    start(side: theta = angle),
+)]
+struct Swing {
+    gravity: f64,
+    drag: f64,
+    mu: f64,
+    angle: f64,
+}
+
+/// Where it turns both velocities are zero but for rounding, and so is what |v| begins anew with.
+#[test]
+fn a_bead_turns_on_a_curved_path() {
+    for k in 0..8 {
+        let (gravity, drag, angle) = (9.81, 0.1, 0.3 + 0.07 * f64::from(k));
+        let mu = if k % 2 == 0 { 0.02 } else { 0.05 };
+        let bowl = Bowl {
+            gravity,
+            drag,
+            mu,
+            angle,
+        };
+        let swing = Swing {
+            gravity,
+            drag,
+            mu,
+            angle,
+        };
+        let by_angle = run_by(&swing, ("dop853", 1e-12), swing.at(Swing::SIDE), 5.0);
+        let turns = times(&by_angle, "rub", "reverses");
+        assert!(turns.len() > 2, "{turns:?}");
+        for (method, tolerance) in [
+            ("taylor", 1e-6),
+            ("taylor", 1e-9),
+            ("taylor", 1e-12),
+            ("dop853", 1e-9),
+        ] {
+            let run = run_by(&bowl, (method, tolerance), bowl.at(Bowl::SIDE), 5.0);
+            let found = times(&run, "rub", "reverses");
+            assert_eq!(found.len(), turns.len(), "{method} {tolerance:e} {angle}");
+            for (found, turn) in found.iter().zip(&turns) {
+                agree(method, *found, *turn, 50.0 * tolerance.max(1e-11));
+            }
+            certified(format!("{method} {tolerance:e} {angle}"), &run);
+        }
+    }
 }

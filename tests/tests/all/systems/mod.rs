@@ -76,6 +76,7 @@ mod sling;
 mod slinky;
 mod slips;
 mod small;
+mod starts;
 mod stewart;
 mod stiff;
 mod stools;

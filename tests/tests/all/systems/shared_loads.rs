@@ -2,7 +2,7 @@
 
 use super::{PI, state};
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, event, run_by, words};
+use lagrange_tests::{agree, event, run_by, times, words};
 
 /// A sledge on two rough runners under a load that comes and goes.
 #[derive(Lagrangian, Clone, Debug)]
@@ -359,6 +359,91 @@ fn forces_that_are_open_are_possible_ones() {
             agree(&asked, friction, -scene.mu * normal[0], 1e-9);
             let speed = 5.0 + friction / scene.mass * until;
             agree(&asked, motion.final_state().v[0], speed, 1e-8);
+        }
+    }
+}
+
+/// A beam on three supports, of which the load lifts it again and again.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y, theta),
+    kinetic = der(y)^2/2 + der(theta)^2/6,
+    potential = gravity * y,
+    contact(under[k in 0..3]: y + (k - 1)*sin(theta) >= 0),
+    force(lift: y = load * sin(rate*t)),
+)]
+struct Lifted {
+    gravity: f64,
+    load: f64,
+    rate: f64,
+}
+
+/// Nothing moves before it lifts, so that nothing but the forces bounds the steps; and where it does, nothing is left of any of them.
+#[test]
+fn what_is_shared_ends_with_the_load_each_time() {
+    let scene = Lifted {
+        gravity: 9.81,
+        load: 12.0,
+        rate: 1.3,
+    };
+    let first = (scene.gravity / scene.load).asin() / scene.rate;
+    let period = 2.0 * PI / scene.rate;
+    for (method, tolerance) in [
+        ("taylor", 1e-6),
+        ("taylor", 1e-9),
+        ("taylor", 1e-12),
+        ("dop853", 1e-9),
+        ("radau5", 1e-6),
+    ] {
+        let asked = format!("{method} {tolerance:e}");
+        let motion = run_by(
+            &scene,
+            (method, tolerance),
+            state(&[0.0; 2], &[0.0; 2]),
+            50.0,
+        );
+        for support in ["under[0]", "under[1]", "under[2]"] {
+            let times = times(&motion, support, "lost");
+            assert_eq!(times.len(), 11, "{asked} {support}: {times:?}");
+            for (k, time) in times.iter().enumerate() {
+                agree(&asked, *time, first + k as f64 * period, 20.0 * tolerance);
+            }
+        }
+        agree("angle", motion.final_state().q[1], 0.0, 20.0 * tolerance);
+    }
+}
+
+/// A block that two frictions hold together, and a load that shakes it.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2/2,
+    force(shake: x = load * sin(rate*t)),
+    friction(strong: slip = der(x), limit = 0.7),
+    friction(weak: slip = der(x), limit = 0.1),
+)]
+struct Held {
+    load: f64,
+    rate: f64,
+}
+
+/// It slips as a block does that one friction of their sum holds.
+#[test]
+fn two_frictions_hold_as_one_of_their_sum() {
+    let held = Held {
+        load: 0.9,
+        rate: 1.3,
+    };
+    let first = (0.8_f64 / 0.9).asin() / 1.3;
+    for method in ["taylor", "dop853", "verner98", "radau5"] {
+        let motion = run_by(&held, (method, 1e-9), state(&[0.0], &[0.0]), 30.0);
+        let [strong, weak] = ["strong", "weak"].map(|name| times(&motion, name, "slips"));
+        agree(method, strong[0], first, 1e-8);
+        // Half a turn of the load later it slips the other way, and so on.
+        assert_eq!(strong.len(), 12, "{method}: {strong:?}");
+        for (k, (strong, weak)) in strong.iter().zip(&weak).enumerate() {
+            agree(method, *strong, *weak, 1e-8);
+            agree(method, *strong, first + k as f64 * PI / 1.3, 1e-7);
         }
     }
 }

@@ -1,0 +1,145 @@
+//! States that are made to satisfy their constraints: what is said of them wins over what rests, and rests only what friction holds.
+
+use lagrange_core::prelude::*;
+use lagrange_tests::agree;
+
+/// A crank drives a slider on a rough guide.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(phi, beta),
+    define(x = crank*cos(phi) + rod*cos(beta)),
+    kinetic = inertia/2*der(phi)^2 + mass/2*der(x)^2,
+    constraint(joint: crank*sin(phi) == rod*sin(beta)),
+    friction(rub: slip = der(x), normal = load, static = mu),
+    start(centre: der(phi) = speed, der(beta) = crank*speed/rod),
+    start(nearly: phi = 0.6, beta = 0.21, der(phi) = speed),
+)]
+struct Crank {
+    crank: f64,
+    rod: f64,
+    inertia: f64,
+    mass: f64,
+    load: f64,
+    mu: f64,
+    speed: f64,
+}
+
+const CRANK: Crank = Crank {
+    crank: 0.1,
+    rod: 0.3,
+    inertia: 0.02,
+    mass: 0.5,
+    load: 20.0,
+    mu: 0.1,
+    speed: 30.0,
+};
+
+/// The motion of the joint that is nearest to velocities, in the metric of the kinetic energy: u (u·M v)/(u·M u) along its one direction u.
+fn nearest(at: &State, given: [f64; 2]) -> [f64; 2] {
+    let Crank {
+        crank,
+        rod,
+        inertia,
+        mass,
+        ..
+    } = CRANK;
+    let [phi, beta] = [at.q[0], at.q[1]];
+    let along = [1.0, crank * phi.cos() / (rod * beta.cos())];
+    let slide = |v: [f64; 2]| -crank * phi.sin() * v[0] - rod * beta.sin() * v[1];
+    let product = |a: [f64; 2], b: [f64; 2]| inertia * a[0] * b[0] + mass * slide(a) * slide(b);
+    let share = product(along, given) / product(along, along);
+    along.map(|x| x * share)
+}
+
+/// Where it is named the slider is at its dead centre, and its slip zero for an instant.
+#[test]
+fn a_crank_keeps_its_speed_where_its_slider_only_turns() {
+    let simulation = Simulation::new(&CRANK);
+    let named = CRANK.at(Crank::CENTRE);
+    let moved = FixedComponents::default().q(Crank::PHI, 0.5);
+    let found = simulation.consistent(0.0, &named, &moved).expect("a state");
+    let expected = nearest(&found, [named.v[0], named.v[1]]);
+    agree("turns", found.v[0], expected[0], 1e-9);
+    agree("sways", found.v[1], expected[1], 1e-9);
+    assert!(found.v[0] > 25.0, "{found:?}");
+
+    let driven = moved.v(Crank::PHI, 30.0);
+    let found = simulation
+        .consistent(0.0, &named, &driven)
+        .expect("a state");
+    assert_eq!(found.v[0], 30.0);
+    let sways = CRANK.crank * 0.5_f64.cos() / (CRANK.rod * found.q[1].cos());
+    agree("sways", found.v[1], 30.0 * sways, 1e-9);
+}
+
+/// A slip that is zero because a start is not on its constraints is none that rests.
+#[test]
+fn a_start_that_is_moved_keeps_its_speed() {
+    for nothing in [0.0, 1e-9] {
+        let simulation = Simulation::new(&CRANK).project_start(true);
+        let start = CRANK.at(Crank::NEARLY).with_v(Crank::BETA, nothing);
+        let run = simulation.run(&start, 0.0..0.01).expect("runs");
+        let begun = run.sampler().at(0.0).expect("recorded").state;
+        let given = [start.v[0], start.v[1]];
+        // The positions are moved first, and no velocity with them.
+        agree("turns", begun.v[0], nearest(&begun, given)[0], 1e-6);
+        assert!(begun.v[0] > 20.0, "{begun:?}");
+    }
+}
+
+/// A wheel on a road, and a flap on it that rubs.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, phi, flap),
+    kinetic = mass/2*(der(x)^2 + der(y)^2) + inertia/2*(der(phi)^2 + der(flap)^2),
+    potential = mass*gravity*y,
+    contact(road: y >= radius),
+    friction(grip on road: slip = der(x) - radius*der(phi), static = 0.3),
+    friction(hinge: slip = der(flap), limit = 2),
+    start(rolls: y = radius, der(x) = speed, der(phi) = speed/radius),
+)]
+struct Wheel {
+    mass: f64,
+    inertia: f64,
+    gravity: f64,
+    radius: f64,
+    speed: f64,
+}
+
+#[test]
+fn what_is_held_lifts_contacts_and_moves_what_rubs() {
+    let wheel = Wheel {
+        mass: 2.0,
+        inertia: 0.1,
+        gravity: 9.81,
+        radius: 0.3,
+        speed: 2.0,
+    };
+    let simulation = Simulation::new(&wheel);
+    let consistent = |fixed: FixedComponents| {
+        let found = simulation.consistent(0.0, wheel.at(Wheel::ROLLS), &fixed);
+        found.expect("a state")
+    };
+    let none = FixedComponents::default;
+    // It goes on to roll where it can,
+    let faster = consistent(none().v(Wheel::PHI, 10.0));
+    assert_eq!((faster.v[0], faster.v[2]), (3.0, 10.0));
+    // slips where both are held,
+    let slips = consistent(none().v(Wheel::PHI, 10.0).v(Wheel::X, 1.0));
+    assert_eq!((slips.q[1], slips.v[0], slips.v[2]), (0.3, 1.0, 10.0));
+    // and flies, or is about to, where its height or its rise is.
+    let high = consistent(none().q(Wheel::Y, 0.5).v(Wheel::PHI, 10.0));
+    assert_eq!((high.q[1], high.v[0], high.v[2]), (0.5, 2.0, 10.0));
+    let rises = consistent(none().v(Wheel::Y, 1.0));
+    assert_eq!((rises.q[1], rises.v[1], rises.v[0]), (0.3, 1.0, 2.0));
+    let flaps = consistent(none().v(Wheel::FLAP, 1.5));
+    assert_eq!((flaps.v[3], flaps.v[0]), (1.5, 2.0));
+    // Nothing but the constraints of a system can refuse what is held.
+    let named = CRANK.at(Crank::CENTRE);
+    let beyond = none().q(Crank::BETA, 0.5);
+    let refused = Simulation::new(&CRANK).consistent(0.0, named, &beyond);
+    assert!(
+        matches!(refused, Err(Error::Projection { item: "joint", .. })),
+        "{refused:?}"
+    );
+}
