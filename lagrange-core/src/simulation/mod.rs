@@ -265,7 +265,8 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
     }
 
     /// The state nearest to `reference` (in the mass metric) that has the values in `fixed` exactly and satisfies all constraints.
-    /// Contacts that are closed in `reference` stay closed; slips that vanish there vanish.
+    /// Contacts that are closed in `reference` stay closed, and frictions that stick in the motion that begins there stick, but for those
+    /// that what is fixed lifts or moves.
     ///
     /// # Errors
     /// [`Error::Projection`] if there is none, with the row that cannot be satisfied; [`Error::Dimension`] if `reference` or `fixed`

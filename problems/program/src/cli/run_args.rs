@@ -52,7 +52,7 @@ pub(super) struct Motion {
     #[arg(long, value_name = "START")]
     from: Option<String>,
     /// Hold a coordinate (theta=0.1) or velocity ("der(theta)=2") at the start; the others follow from the named
-    /// start: constraints hold, contacts closed there stay closed, slips zero there stay zero. May be repeated.
+    /// start: constraints hold, and what is closed or sticks there goes on if it can. May be repeated.
     #[arg(long, value_name = "NAME=VALUE", value_parser = held, allow_hyphen_values = true)]
     start: Vec<(String, f64)>,
     /// Switch an effect on that the scene file has switched off; may be repeated.

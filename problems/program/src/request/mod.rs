@@ -363,7 +363,7 @@ impl Start {
     /// The state of a system.
     ///
     /// Values given by name are held exactly. The others begin as in the named start and are then solved so that
-    /// constraints hold, contacts closed there stay closed, and slips that are zero there stay zero; `consistent` does that.
+    /// constraints hold, contacts closed there stay closed, and frictions that stick there stick; `consistent` does that.
     pub(crate) fn state(
         &self,
         system: &AnySystem<f64>,
