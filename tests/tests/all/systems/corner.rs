@@ -166,14 +166,14 @@ fn a_table_falls_back_on_both_of_its_feet() {
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
     coordinates(x, y),
-    define(at = reach*sin(rate*t)),
+    define(face = reach*sin(rate*t)),
     kinetic = (der(x)^2 + der(y)^2)/2,
     potential = gravity*y,
-    force(press: -press along der(x)),
+    force(pushes: -press along der(x)),
     contact(floor: y >= 0),
-    contact(wall: x >= at),
-    friction(rub on floor: slip = der(x) - der(at), static = mu_static, kinetic = mu),
-    start(falls: y = height, der(x) = der(at)),
+    contact(wall: x >= face),
+    friction(rub on floor: slip = der(x) - der(face), static = mu_static, kinetic = mu),
+    start(falls: y = height, der(x) = der(face)),
 )]
 struct Lift {
     press: f64,
