@@ -238,7 +238,7 @@ fn a_bead_turns_on_a_curved_path() {
         };
         let by_angle = run_by(&swing, ("dop853", 1e-12), swing.at(Swing::SIDE), 5.0);
         let turns = times(&by_angle, "rub", "reverses");
-        assert!(turns.len() > 2, "{turns:?}");
+        assert!(turns.len() > 1, "{turns:?}");
         for (method, tolerance) in [
             ("taylor", 1e-6),
             ("taylor", 1e-9),
