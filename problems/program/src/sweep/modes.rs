@@ -76,7 +76,10 @@ impl Switches {
     fn packed(&self, mut digits: Vec<u64>) -> f64 {
         let mut rest = 0;
         if digits.len() > self.room(f64::MANTISSA_DIGITS) {
-            let bytes: Vec<u8> = digits.iter().flat_map(|digit| digit.to_le_bytes()).collect();
+            let bytes: Vec<u8> = digits
+                .iter()
+                .flat_map(|digit| digit.to_le_bytes())
+                .collect();
             rest = XxHash64::oneshot(0, &bytes) >> (u64::BITS - HASH);
             let readable = self.room(f64::MANTISSA_DIGITS - HASH);
             digits.truncate(readable.saturating_sub(1));
@@ -121,7 +124,9 @@ mod tests {
         assert_eq!(switches.base(), 10);
         let short = [1, 4, 2, 8, 5, 7, 1, 3, 1, 2, 3, 4, 5, 6, 7].to_vec();
         let all = switches.words(switches.packed(short.clone()));
-        let told = short.iter().map(|digit| &switches.kinds[*digit as usize - 1].2);
+        let told = short
+            .iter()
+            .map(|digit| &switches.kinds[*digit as usize - 1].2);
         assert!(all.iter().eq(told), "{all:?}");
         let long: Vec<u64> = (0..40).map(|k| 1 + k % 3).collect();
         let others = (0..40).map(|k| {
@@ -132,10 +137,16 @@ mod tests {
         let others = others.chain([long.clone(), long[..39].to_vec()]);
         let numbers: BTreeSet<u64> = others.map(|it| switches.packed(it) as u64).collect();
         assert_eq!(numbers.len(), 42);
-        assert!(numbers.iter().all(|number| *number < 1 << f64::MANTISSA_DIGITS));
+        assert!(
+            numbers
+                .iter()
+                .all(|number| *number < 1 << f64::MANTISSA_DIGITS)
+        );
         let words = switches.words(switches.packed(long));
         assert_eq!(words[..2], ["floor lost", "floor closed"]);
-        let [.., last] = &words[..] else { panic!("words") };
+        let [.., last] = &words[..] else {
+            panic!("words")
+        };
         assert!(last.starts_with("… ") && words.len() == 6, "{words:?}");
     }
 }

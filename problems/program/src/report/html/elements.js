@@ -21,7 +21,7 @@ function html(kind, attributes, parent, text) {
   return element;
 }
 
-const colour = (i) => `var(--c${i % 6})`;
+const colour = (i) => `var(--c${i % 12})`;
 
 const digits = (x) => (x === null || x === undefined ? "–" : Number(x.toPrecision(4)).toString().replace("-", "−"));
 

@@ -86,7 +86,7 @@ function space(stage, run) {
   const pointed = arrows.map((arrow, i) => {
     const name = svg("text", { class: "name", style: `fill: ${colour(i)}` }, over);
     name.textContent = arrow.name;
-    return { ...arrow, label: name, value: entry(legend, arrow.impulse ? arrow.name : `force ${arrow.name}`, colour(i)), paint: `c${i % 6}` };
+    return { ...arrow, label: name, value: entry(legend, arrow.impulse ? arrow.name : `force ${arrow.name}`, colour(i)), paint: `c${i % 12}` };
   });
   if (cut) html("p", { class: "note" }, stage, "The strongest forces are drawn shorter than they are.");
   const scale = svg("text", { class: "words", x: 10 }, over);
