@@ -275,9 +275,11 @@ impl Outcome {
             let is = |flags: &Vec<bool>| flags.get(row) == Some(&true);
             let events = self.events.iter();
             self.samples.iter().any(|s| is(&s.undetermined))
-                || events
-                    .clone()
-                    .any(|e| is(&e.undetermined) || is(&e.undetermined_after))
+                || events.clone().any(|e| {
+                    // What was tried first at the start never acted.
+                    let before = is(&e.undetermined) && !self.is_decided_at_start(e);
+                    before || is(&e.undetermined_after)
+                })
         };
         let all = forces(self.description).into_iter();
         all.filter(|force| open(force.row))
@@ -295,7 +297,8 @@ impl Outcome {
         let mut samples = self.samples.iter();
         samples.any(|s| slides(&s.mode, &s.undetermined))
             || self.events.iter().any(|e| {
-                slides(&e.before, &e.undetermined) || slides(&e.after, &e.undetermined_after)
+                let before = slides(&e.before, &e.undetermined) && !self.is_decided_at_start(e);
+                before || slides(&e.after, &e.undetermined_after)
             })
     }
 

@@ -697,6 +697,24 @@ mod tests {
         );
     }
 
+    /// A ladder that slips at once at both ends: while it slips its forces are determined.
+    #[test]
+    fn what_never_acted_is_not_told_as_undetermined() {
+        let lines = story(
+            "parameters(m: \"kg\" = 10, l: \"m\" = 2, g: \"m/s^2\" = 9.81, lean = 0.7), coordinates(x: \"m\", y: \"m\", theta),
+             kinetic = m/2*(der(x)^2 + der(y)^2) + m*l^2/6*der(theta)^2, potential = m*g*y,
+             contact(floor: y - l*cos(theta) >= 0), contact(wall: x + l*sin(theta) <= 0),
+             friction(foot on floor: slip = der(x - l*sin(theta)), static = 0.3),
+             friction(head on wall: slip = der(y + l*cos(theta)), static = 0.2),
+             start(leaning: theta = lean, x = -l*sin(lean), y = l*cos(lean)), until = 0.2",
+        );
+        assert!(
+            lines.iter().any(|line| line.contains("foot slips")),
+            "{lines:#?}"
+        );
+        assert!(lines.iter().all(|line| !line.starts_with("Not determined")));
+    }
+
     /// Two blocks that are pulled too hard, and one that is not: nobody sees the two stick, and 10 N on 2 N of friction are 4 m in a second.
     #[test]
     fn the_start_is_one_row_with_what_was_decided_there() {

@@ -21,7 +21,9 @@ function html(kind, attributes, parent, text) {
   return element;
 }
 
-const colour = (i) => `var(--c${i % 12})`;
+// How many colours are taken in turn.
+const TURN = 12;
+const colour = (i) => `var(--c${i % TURN})`;
 
 const digits = (x) => (x === null || x === undefined ? "–" : Number(x.toPrecision(4)).toString().replace("-", "−"));
 
