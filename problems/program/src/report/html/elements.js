@@ -38,15 +38,16 @@ function gathered(phases, part) {
   }, []);
 }
 
-// The ground of such a group: a layer for each mode, as high as the mode takes part.
+// The ground of such a group: a layer for each mode, as high as the mode takes part, in the same order everywhere.
 function layers(phases, modes) {
   const lasts = new Map();
   for (const { from, to, mode } of phases) lasts.set(mode, (lasts.get(mode) || 0) + to - from);
   const all = [...lasts.values()].reduce((a, b) => a + b, 0);
   let below = 0;
-  const stops = [...lasts].map(([mode, time]) => {
+  const seen = modes.filter((mode) => lasts.has(mode));
+  const stops = seen.map((mode) => {
     const above = below;
-    below += all > 0 ? (100 * time) / all : 100;
+    below += all > 0 ? (100 * lasts.get(mode)) / all : 100;
     return `${colour(modes.indexOf(mode))} ${above}% ${below}%`;
   });
   return lasts.size > 1 ? `linear-gradient(${stops.join(", ")})` : colour(modes.indexOf(phases[0].mode));
