@@ -54,7 +54,7 @@ enum Format {
 }
 
 /// What is said of the Rust for a declaration in a file.
-const INTERPRETED: &str = "// What the derive macro emits for this declaration. A run of a file interprets the same operations; \n\
+const INTERPRETED: &str = "// What the derive macro emits for this declaration. A run of a file interprets the same operations;\n\
      // `lagrange export` writes the system for the macro.";
 
 impl Inspect {
