@@ -522,9 +522,16 @@ impl fmt::Display for Error {
                 modes.join(" → ")
             ),
             Error::Limit { time, what, limit } => {
+                let advice = match *what {
+                    "events" => " or raise the limit (`max_events`, `--max-events`)",
+                    "steps" => " or raise the limit (`max_steps`)",
+                    _ => "",
+                };
+                let one = what.strip_suffix('s').filter(|_| *limit == 1);
+                let what = one.unwrap_or(what);
                 write!(
                     f,
-                    "t = {time}: more than {limit} {what}; if this is intended, end the run earlier or raise the limit (`max_{what}`)"
+                    "t = {time}: more than {limit} {what}; if this is intended, end the run earlier{advice}"
                 )
             }
             Error::OutOfReach {

@@ -5,4 +5,4 @@
     potential = -mass * gravity * length * theta.cos(),
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
-//~ 5:50 E005 `.cos()` is Rust's notation; functions are written as in mathematics: `cos(theta)`
+//~ 5:50 E005 `.cos()` is the notation of programs; functions are written as in mathematics: `cos(theta)`

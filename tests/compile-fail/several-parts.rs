@@ -6,4 +6,4 @@
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
 //~ 4:45 E004 `**` is not an operator here; a power is written with `^`: `x^2`
-//~ 5:50 E005 `.cos()` is Rust's notation; functions are written as in mathematics: `cos(theta)`
+//~ 5:50 E005 `.cos()` is the notation of programs; functions are written as in mathematics: `cos(theta)`

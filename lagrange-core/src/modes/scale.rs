@@ -114,6 +114,33 @@ impl Sizes {
         self.row(row, dynamics).acceleration
     }
 
+    /// Size of what the force of each row that acts holds in balance: what drives and what accelerates the coordinates that it moves, of a
+    /// friction also what it is a part of.
+    pub fn held<T: Scalar>(&self, dynamics: &Dynamics<T>) -> Vec<f64> {
+        let d = dynamics.description();
+        let number = |place: ValueRef| dynamics.motion(place).value().abs();
+        let mut held = vec![0.0; d.rows.len()];
+        for &row in dynamics.acting_rows() {
+            let parts = d.rows[row].jacobian.iter().map(|&(j, place)| {
+                let driven = self.mobility[j] * number(d.forcing[j]);
+                number(place) * (driven + dynamics.acceleration()[j].value().abs())
+            });
+            let acceleration = number(d.rows[row].bias) + parts.sum::<f64>();
+            let compliance = self.compliance(row, dynamics);
+            if compliance > 0.0 {
+                held[row] = acceleration / compliance;
+            }
+        }
+        for friction in d.frictions {
+            let normal = friction.normal.rows(d).map(|row| held[row]);
+            let part = number(friction.kinetic_coefficient) * normal.sum::<f64>();
+            for size in &mut held[friction.row..friction.row + friction.components] {
+                *size += part;
+            }
+        }
+        held
+    }
+
     fn row<T: Scalar>(&self, row: usize, dynamics: &Dynamics<T>) -> Row {
         let compliance = self.compliance(row, dynamics);
         let bias = dynamics.motion(dynamics.description().rows[row].bias);

@@ -31,6 +31,8 @@ pub struct Instant<T> {
     pub forces: Vec<T>,
     /// Per row: whether the motion leaves its force open. Empty where all forces are determined.
     pub undetermined: Vec<bool>,
+    /// Per row: the size of what its force holds in balance; a force that is a rounding error of it is none.
+    pub held: Vec<T>,
     /// Gap of every contact.
     pub gaps: Vec<T>,
     /// Slip of every friction component, in the order of the rows.
@@ -343,6 +345,7 @@ pub(crate) fn instant<T: Scalar>(
         acceleration: dynamics.acceleration().to_vec(),
         forces,
         undetermined,
+        held: redundant.held(dynamics),
         gaps: contacts.map(|place| dynamics.motion(place)).collect(),
         slips: frictions
             .map(|row| dynamics.motion(d.rows[row].velocity))

@@ -121,7 +121,7 @@ fn from_file(text: &str, name: &str, sink: &mut Diagnostics) -> Option<FromFile>
     let until = file.until.as_ref();
     let until = until.and_then(|until| {
         let seconds = model::number(&file.declaration, until, sink)?;
-        if seconds < 0.0 {
+        if seconds <= 0.0 {
             let found = format!("`{until}`");
             let wanted = "a time after the start, which is at 0, as in `until = 5`";
             sink.report(Code::Expected, until.extent, &[&wanted, &found]);

@@ -59,6 +59,24 @@ impl RunFormat {
         })
     }
 
+    /// The same, to read if it has no ending.
+    ///
+    /// # Errors
+    /// A sentence, if its ending is that of no format.
+    pub(crate) fn named(path: &Path) -> Result<Self, String> {
+        let Some(ending) = path.extension() else {
+            return Ok(RunFormat::Table);
+        };
+        let picture = match ending == "svg" {
+            true => "; pictures are drawn with --plot",
+            false => "",
+        };
+        Self::of(path).ok_or_else(|| {
+            let path = path.display();
+            format!("the name {path} says no format: let it end in .csv, .json, .jsonl, .parquet or .txt, or give --format{picture}")
+        })
+    }
+
     /// Whether it says how the run was between its events.
     pub fn is_sampled(self) -> bool {
         matches!(self, RunFormat::Jsonl | RunFormat::Csv | RunFormat::Parquet)

@@ -122,6 +122,11 @@ impl Quantity {
         }
     }
 
+    /// How many of its unit on paper one of its own is.
+    pub(crate) fn scale(&self, d: &Description) -> f64 {
+        self.scaled_unit(d).1
+    }
+
     /// Its unit on paper.
     pub(crate) fn unit(&self, d: &Description) -> String {
         self.scaled_unit(d).0

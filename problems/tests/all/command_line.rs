@@ -349,7 +349,7 @@ fn events_beyond_their_limit_end_a_run() {
     let output = lagrange(&["run", "mass-on-wheel", "--max-events", "1"]);
     assert_eq!(output.status.code(), Some(1));
     let said = text(&output.stderr);
-    assert!(said.contains("more than 1 events"), "{said}");
+    assert!(said.contains("more than 1 event;"), "{said}");
     says(&["run", "mass-on-wheel", "--max-events", "1e3"]);
     refuses(
         &["run", "mass-on-wheel", "--max-events", "0"],

@@ -42,7 +42,10 @@ fn every_command_takes_a_file() {
         (&["run", "free.toml", "--set", "length=2"], "total"),
         (&["verify", file], "Certified"),
         (&["inspect", file], "½ mass length² θ̇²"),
-        (&["inspect", file, "--format", "rust"], "impl"),
+        (
+            &["inspect", file, "--format", "rust"],
+            "A run of a file interprets the same operations",
+        ),
         (&["effects", file], "bearing"),
         (&["accuracy", file, "--tolerances", "1e-3..1e-5"], "taylor"),
         (

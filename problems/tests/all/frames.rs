@@ -1,7 +1,7 @@
 //! `lagrange report` for slides: numbered frames, and a picture that moves by itself.
 
 use crate::markup::unclosed;
-use crate::program::{refuses, says};
+use crate::program::{folder, lagrange_in, refuses, says, text};
 use lagrange_problems::catalogue::scenes;
 use lagrange_program::report::frames::{Clock, Panel, animated, stills};
 use lagrange_program::request::Request;
@@ -145,4 +145,26 @@ fn what_makes_no_sense_is_refused() {
     refuses(&page, 2, "--format svg or --format png");
     refuses(&["report", "kepler", "--fps", "0"], 2, "above 0");
     assert!(!std::path::Path::new("frames").exists());
+    let place = folder("frames-of-nothing");
+    let declared = "coordinates(x), kinetic = der(x)^2, start(a: der(x) = 1), until = 1,";
+    std::fs::write(place.join("bare.lagrange"), declared).expect("a file");
+    for (frames, reason) in [
+        (
+            "frames",
+            "nothing of bare.lagrange is drawn: declare `draw(…)`",
+        ),
+        ("bare.lagrange", "cannot make bare.lagrange: it is a file"),
+    ] {
+        let scene = if frames == "frames" {
+            "bare.lagrange"
+        } else {
+            "kepler"
+        };
+        let said = lagrange_in(&place, &["report", scene, "--frames", frames]);
+        assert!(
+            text(&said.stderr).contains(reason),
+            "{}",
+            text(&said.stderr)
+        );
+    }
 }

@@ -125,6 +125,10 @@ fn what_makes_no_sense_is_refused_in_one_line() {
         "did you mean `mass-on-wheel`?",
     );
     wheel(
+        &["--mode", "rim closed"],
+        "with that there are `rim closed, grip sticks`, `rim closed, grip slips forward`",
+    );
+    wheel(
         &["--mode", "rim closed, grip stiks"],
         "did you mean `rim closed, grip sticks`?",
     );

@@ -225,6 +225,32 @@ fn plots_are_chosen_and_enlarged_and_events_jumped_to() {
     assert_eq!(browser.complaints, Vec::<String>::new());
 }
 
+/// A slip that turns round some eighty times in a second: the modes take turns in less than the bar can show, one as long as the other.
+#[test]
+fn short_modes_share_the_bar() {
+    let Some(mut browser) = Browser::start() else {
+        return;
+    };
+    let declared = "coordinates(x), kinetic = der(x)^2/2, potential = 31600 * x^2, friction(rub: slip = der(x), limit = 0.1),
+        start(out: x = 1), until = 4,";
+    let file =
+        Written(std::env::temp_dir().join(format!("lagrange-{}.lagrange", std::process::id())));
+    std::fs::write(&file.0, declared).expect("a file");
+    let page = Written::report("short.html", &[file.0.to_str().expect("a path")]);
+    browser.open(&page.0, AT_A_DESK);
+    assert_eq!(browser.complaints, Vec::<String>::new());
+    let blocks = browser.evaluate(
+        "[...document.querySelectorAll('.timeline span:not(.cursor)')].map((block) => block.style.background)",
+    );
+    let blocks = blocks.as_array().expect("blocks");
+    assert!((40..60).contains(&blocks.len()), "{}", blocks.len());
+    let shares = blocks.iter().filter(|block| {
+        let text = block.as_str().unwrap_or_default();
+        text.starts_with("linear-gradient(var(--c0)") && text.contains("var(--c1)")
+    });
+    assert!(shares.count() > 40, "{blocks:?}");
+}
+
 #[test]
 fn long_equations_stay_on_the_page() {
     let Some(mut browser) = Browser::start() else {

@@ -274,6 +274,26 @@ fn paths_begin_in_the_folder_of_the_file() {
         "{saved}"
     );
     runs_from(&runs, &["run", "saved.toml"]);
+    std::fs::write(
+        root.join("above.lagrange"),
+        lagrange_program::file::TEMPLATE,
+    )
+    .expect("a file");
+    runs_from(
+        &root,
+        &["run", "above.lagrange", "--save", "runs/above.toml"],
+    );
+    let saved = std::fs::read_to_string(runs.join("above.toml")).expect("a scene file");
+    assert!(saved.contains("scene = \"../above.lagrange\""), "{saved}");
+    runs_from(&runs, &["run", "above.toml"]);
+    let output = "scene = \"own.lagrange\"\n[outputs]\noutput = \"own.xyz\"\n";
+    std::fs::write(runs.join("own.toml"), output).expect("a file");
+    let said = lagrange_in(&runs, &["run", "own.toml"]);
+    let said = text(&said.stderr);
+    assert!(
+        said.contains("own.toml:3:10") && said.contains("own.xyz says no format"),
+        "{said}"
+    );
 }
 
 /// An array of parameters takes one number for all elements, as a declaration in a file gives it.

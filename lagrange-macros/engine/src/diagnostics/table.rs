@@ -37,11 +37,11 @@ table! {
     EmptyPart "E002" "nothing is written here" "expected {0}; or take the comma away";
     MissingComma "E003" "expected a comma before `{0}`" "parts are separated by commas";
     PowerStars "E004" "`**` is not an operator here" "a power is written with `^`: `x^2`";
-    MethodCall "E005" "`.{0}()` is Rust's notation" "functions are written as in mathematics: `{1}`";
+    MethodCall "E005" "`.{0}()` is the notation of programs" "functions are written as in mathematics: `{1}`";
     SingleEquals "E006" "`=` where an equation is expected" "an equation is written with two: `a == b`";
     NumberSuffix "E007" "`{0}` is not a number" "{1}";
     NumberForm "E008" "`{0}` is not a number of the language" "write decimal digits: `12`, `0.5`, `1e-3`";
-    NumberSize "E009" "`{0}` cannot be kept exactly" "numbers have at most 38 digits; pass it as a field of the struct";
+    NumberSize "E009" "`{0}` cannot be kept exactly" "a number in an expression has at most 38 digits, and a parameter is a double";
     UnknownItem "E010" "`{0}` is not an item" "{1}";
     ComparisonExpected "E011" "expected a comparison" "write {0}";
     ComparisonAsValue "E012" "a comparison is not a value" "`if(a >= b, x, y)` chooses between values; `stop`, `mark`, `contact` and `constraint` take comparisons";

@@ -6,7 +6,7 @@ use super::meaning::Kind;
 use super::value::{Value, area, cross, dot, norm};
 use crate::ast::{Expr, ModeWord, Name};
 use crate::diagnostics::{Code, nearest};
-use crate::parse::FUNCTIONS;
+use crate::parse::{DEGREES, FUNCTIONS, is_degree};
 use crate::symbolic::{ExprId, Function};
 
 /// What other languages call the functions of this one.
@@ -110,6 +110,8 @@ impl Elaboration<'_> {
         }
         let hint = if text == "poisson" {
             "it stands in a contact: `restitution = poisson(e)`".to_string()
+        } else if is_degree(text) {
+            DEGREES.to_string()
         } else if self.names.contains_key(text)
             || self.indices.iter().any(|(index, _)| index == text)
         {
@@ -189,6 +191,7 @@ impl Elaboration<'_> {
     fn of_lists(&mut self, name: &Name, arguments: &[Expr], context: Context) -> Option<Value> {
         let (count, takes) = match name.text.as_str() {
             "norm" => (1, "1 list"),
+            "dot" if arguments.len() == 1 => (2, "2 lists (a velocity is `der(x)`)"),
             _ => (2, "2 lists"),
         };
         self.arity(name, arguments, count..=count, takes)?;

@@ -38,6 +38,9 @@ impl Elaboration<'_> {
                 (None, given) => Normal::Given(given?),
             };
             let slip = slip?;
+            if let Normal::Contact(contact) = normal {
+                this.along_surface(contact, &slip, &declared.slip)?;
+            }
             let [static_coefficient, kinetic_coefficient] =
                 [at_rest, sliding].map(|e| this.of_slip_speed(e, &slip, &declared.slip));
             this.system.frictions.push(Friction {
@@ -49,6 +52,37 @@ impl Elaboration<'_> {
             });
             Some(this.system.frictions.len() - 1)
         });
+    }
+
+    /// Whether no slip is the velocity along the normal, as that of the contact's own gap.
+    fn along_surface(
+        &mut self,
+        contact: usize,
+        slip: &[(ExprId, Symbol)],
+        declared: &Expr,
+    ) -> Option<()> {
+        let contact = &self.system.contacts[contact];
+        let (name, gap) = (contact.name.text.clone(), contact.gap);
+        let rate = self.time_rate(gap);
+        for &(component, _) in slip {
+            let pool = &mut self.system.pool;
+            let along = [Rational::ONE, Rational::MINUS_ONE]
+                .into_iter()
+                .any(|sign| {
+                    let signed = pool.scale(rate, sign);
+                    let sum = pool.add(component, signed);
+                    let sum = pool.expand(sum);
+                    pool.is_zero(sum)
+                });
+            if along {
+                let text = format!("this slip is the velocity along the normal of `{name}`");
+                let hint = "a slip is a velocity along the surface";
+                self.sink
+                    .report(Code::Bearing, declared.extent, &[&text, &hint]);
+                return None;
+            }
+        }
+        Some(())
     }
 
     /// What presses: a contact, a constraint, or constraints together.

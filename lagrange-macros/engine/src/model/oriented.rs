@@ -98,13 +98,45 @@ impl Elaboration<'_> {
         Some(())
     }
 
+    /// Whether a start says in one way only how a body is turned, and how it spins.
+    fn said_once(&mut self, start: &Start, body: &Oriented) -> Option<()> {
+        let of_body = |list: &[(usize, ExprId)]| {
+            let mut set = list.iter().map(|(coordinate, _)| *coordinate);
+            set.find(|coordinate| (body.first..body.first + 4).contains(coordinate))
+        };
+        let (position, velocity) = (of_body(&start.positions), of_body(&start.velocities));
+        let coordinates = &self.system.coordinates;
+        let position = position.map(|i| coordinates[i].name.text.clone());
+        let velocity = velocity.map(|i| self.system.pool.name(coordinates[i].velocity).to_string());
+        let member = |text: &str| format!("{}.{text}", body.name.text);
+        let [own, space] = [0, 1].map(|side| body.rates[side].iter().any(Option::is_some));
+        let rate = match (own, space) {
+            (true, true) => Some((member("body_rate"), Some(member("space_rate")))),
+            (true, false) => Some((member("body_rate"), velocity)),
+            (false, true) => Some((member("space_rate"), velocity)),
+            (false, false) => None,
+        };
+        let turn = body.turned.map(|_| (member("turn"), position));
+        for (said, again) in [turn, rate].into_iter().flatten() {
+            if let Some(again) = again {
+                let hint = "both say how the body moves; keep one";
+                self.sink
+                    .report(Code::Exclusive, &body.name, &[&said, &again, &hint]);
+                return None;
+            }
+        }
+        Some(())
+    }
+
     /// Sets the quaternions of all bodies, and how they change. A body that is not oriented stands along the axes of space: q = 0 is no
     /// orientation.
     pub fn place(&mut self, start: &mut Start, bodies: &[Oriented]) -> Option<()> {
         for body in bodies {
-            for (k, e) in body.turned.into_iter().flatten().enumerate() {
-                self.begin(start, false, (body.first + k, e), &body.name)?;
-            }
+            self.said_once(start, body)?;
+            let turned = body.turned.into_iter().flatten().enumerate();
+            start
+                .positions
+                .extend(turned.map(|(k, e)| (body.first + k, e)));
         }
         for &first in self.bodies.values() {
             let mut set = start.positions.iter();
@@ -132,9 +164,10 @@ impl Elaboration<'_> {
                     false => product(pool, q, rate),
                 };
                 let change = change.map(|e| pool.scale(e, Rational::HALF));
-                for (k, e) in change.into_iter().enumerate() {
-                    self.begin(start, true, (body.first + k, e), &body.name)?;
-                }
+                let change = change.into_iter().enumerate();
+                start
+                    .velocities
+                    .extend(change.map(|(k, e)| (body.first + k, e)));
             }
         }
         Some(())

@@ -45,7 +45,7 @@ impl Elaboration<'_> {
     }
 
     /// Sets a position, or a velocity of what `moves`, that is not set already.
-    pub fn begin(
+    fn begin(
         &mut self,
         start: &mut Start,
         moves: bool,

@@ -139,6 +139,9 @@ fn postfix(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<Expr> {
     }
 }
 
+/// What functions belong to in other languages.
+const MODULES: [&str; 4] = ["math", "Math", "np", "numpy"];
+
 /// `theta.cos()` is reported with what to write instead.
 fn method(
     value: Expr,
@@ -155,6 +158,10 @@ fn method(
         ("powi" | "powf" | "pow", [base, exponent]) => format!("{base}^{exponent}"),
         ("log" | "log10", [argument, ..]) => format!("ln({argument})"),
         ("signum", [argument]) => format!("sign({argument})"),
+        // A module of functions in other languages.
+        (function, [module, rest @ ..]) if MODULES.contains(&module.as_str()) => {
+            format!("{function}({})", rest.join(", "))
+        }
         (function, arguments) => format!("{function}({})", arguments.join(", ")),
     };
     sink.report(
@@ -365,6 +372,10 @@ fn no_value(cursor: &Cursor, sink: &mut Diagnostics) {
     let hint = match cursor.operator() {
         Some("|" | "||") => "an absolute value is written `abs(x)`",
         Some("!" | "&" | "&&") => "conditions are comparisons, joined by `and`",
+        Some(".") if let Some(TokenTree::Literal(digits)) = cursor.second() => {
+            let text = format!(".{digits}");
+            return sink.report(Code::NumberForm, cursor.here(), &[&text]);
+        }
         _ => return cursor.expected("a value", sink),
     };
     let operator = cursor.operator().unwrap_or_default();

@@ -11,6 +11,7 @@
 use super::cursor::{Cursor, DEEPEST};
 use super::item::{self, Items, Parameters, attributes};
 use super::structure;
+use super::words::DEGREES;
 use crate::ast::{Declaration, Expr, Field, Home};
 use crate::diagnostics::{Code, Diagnostics, Extent};
 use core::ops::Range;
@@ -101,6 +102,12 @@ pub fn file(text: &str, name: &str, sink: &mut Diagnostics) -> Option<File> {
 
 /// What to do about a text that begins with what cannot be read.
 fn unreadable(rest: &str) -> String {
+    // A number that ends before a sign with which none does cannot be read from its beginning.
+    let number = rest.trim_start_matches(|c: char| c.is_ascii_alphanumeric() || "._".contains(c));
+    let rest = match rest.starts_with(|c: char| c.is_ascii_digit()) {
+        true => number,
+        false => rest,
+    };
     let Some(first) = rest.chars().next() else {
         return "a bracket, a quotation mark or a comment is not closed".to_owned();
     };
@@ -111,14 +118,15 @@ fn unreadable(rest: &str) -> String {
         '/' => return "the remark is not closed: `/*` ends with `*/`".to_owned(),
         '\'' => "the velocity of `x` is written `der(x)`",
         '²' | '³' | '⁴' => "a power is written `x^2`",
-        '×' | '∙' | '⋅' => "a product is written `a*b`",
+        '×' | '∙' | '⋅' | '·' => "a product is written `a*b`",
+        '\\' => "a letter is written by its name alone: `theta`",
         '÷' => "a quotient is written `a/b`",
         '−' | '–' | '—' => "a minus is the sign of the keyboard: `-`",
         '√' => "a root is written `sqrt(x)`",
         '½' | '¼' | '¾' | '⅓' | '⅔' => "a fraction is written `1/2`",
         '≥' => "write `>=`",
         '≤' => "write `<=`",
-        '°' => "angles are in radians: 30° is `pi/6`",
+        '°' => DEGREES,
         '“' | '”' | '„' | '‘' | '’' => {
             "units stand in straight quotation marks: `\"kg\"`"
         }

@@ -1,7 +1,7 @@
 //! What is left over where a part should have ended.
 
 use super::cursor::Cursor;
-use super::words::{FUNCTIONS, RELATIONS, is_keyword};
+use super::words::{DEGREES, FUNCTIONS, RELATIONS, is_degree, is_keyword};
 use crate::diagnostics::{Code, Diagnostics};
 use proc_macro2::{Delimiter, TokenTree};
 
@@ -73,6 +73,11 @@ fn missing_operator(cursor: &Cursor, sink: &mut Diagnostics) {
         Some(word) if FUNCTIONS.contains(&word.text.as_str()) => {
             format!("arguments stand in parentheses: `{}(…)`", word.text)
         }
+        None if cursor.literal_behind()
+            && cursor.word().is_some_and(|word| is_degree(&word.text)) =>
+        {
+            DEGREES.to_string()
+        }
         None if cursor.literal_behind() && cursor.word().is_some() => {
             let what = "a product is written with `*`; what has a unit is a parameter, and an angle a plain number";
             what.to_string()
@@ -91,9 +96,13 @@ fn starts_part(cursor: &Cursor) -> bool {
     let Some(word) = cursor.word() else {
         return false;
     };
-    match cursor.second() {
-        Some(TokenTree::Punct(punct)) => punct.as_char() == '=',
-        Some(TokenTree::Group(_)) => is_keyword(&word.text),
-        _ => word.text == "where",
+    let mut behind = cursor.clone();
+    behind.next();
+    let is_group = matches!(behind.peek(), Some(TokenTree::Group(_)));
+    if is_group {
+        behind.next();
     }
+    matches!(behind.operator(), Some("=" | ":"))
+        || is_group && is_keyword(&word.text)
+        || word.text == "where" && !is_group
 }

@@ -20,7 +20,7 @@ use crate::diagnostics::Diagnostics;
 use proc_macro2::TokenStream;
 
 pub use file::{File, file};
-pub use words::{FUNCTIONS, KEYWORDS};
+pub use words::{DEGREES, FUNCTIONS, KEYWORDS, is_degree};
 
 /// Reads a struct with its `#[lagrange(…)]` attributes; mistakes go to the sink.
 pub fn declaration(input: TokenStream, sink: &mut Diagnostics) -> Option<Declaration> {

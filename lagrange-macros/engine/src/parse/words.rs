@@ -6,6 +6,14 @@ pub const FUNCTIONS: &[&str] = &[
     "sqrt", "abs", "sign", "min", "max", "dot", "cross", "norm", "der",
 ];
 
+/// What is said of angles in degrees.
+pub const DEGREES: &str = "angles are in radians: 30° is `pi/6`";
+
+/// Whether a word is one for degrees, or for what makes them radians.
+pub fn is_degree(word: &str) -> bool {
+    ["deg", "degree", "degrees", "radians", "deg2rad", "rad2deg"].contains(&word)
+}
+
 /// Signs between two sides.
 pub(super) const RELATIONS: &[&str] = &["==", ">=", "<=", "=", ">", "<", "!="];
 

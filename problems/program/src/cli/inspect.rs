@@ -4,6 +4,7 @@ use super::Trouble;
 use super::output::{ready, to_file};
 use super::run_args::scene;
 use crate::catalogue::Catalogue;
+use crate::file::ENDING;
 use crate::names::nearest;
 use clap::{Args, ValueEnum};
 use lagrange_engine::inspect::{Derivation, print};
@@ -52,6 +53,10 @@ enum Format {
     Json,
 }
 
+/// What is said of the Rust for a declaration in a file.
+const INTERPRETED: &str = "// What the derive macro emits for this declaration. A run of a file interprets the same operations;\n\
+     // `lagrange export` writes the system for the macro.";
+
 impl Inspect {
     pub(super) fn execute(&self, catalogue: &Catalogue) -> Result<(), Trouble> {
         let scene = scene(&self.scene, catalogue)?.scene;
@@ -59,7 +64,13 @@ impl Inspect {
         let declaration = scene.derivation().declaration;
         let tokens: proc_macro2::TokenStream = declaration.parse().map_err(Trouble::failed)?;
         let text = match (self.format, &self.mode) {
-            (Format::Rust, None) => lagrange_engine::readable(tokens),
+            (Format::Rust, None) => {
+                let text = lagrange_engine::readable(tokens);
+                match scene.name().ends_with(ENDING) {
+                    true => format!("{INTERPRETED}\n{text}"),
+                    false => text,
+                }
+            }
             (Format::Rust, Some(_)) => {
                 return Err(Trouble::usage(
                     "the emitted Rust serves all modes; leave out `--mode`",
@@ -77,12 +88,33 @@ impl Inspect {
         }
     }
 
-    /// A mode that is not there, with the nearest one that is.
+    /// A mode that is not there, with those that agree with all that it says, or the nearest one.
     fn refused(&self, refusal: lagrange_engine::Refusal) -> Trouble {
         let lagrange_engine::Refusal::Mode(unknown) = &refusal else {
             return Trouble::failed(refusal);
         };
         let known: Vec<&str> = unknown.known.iter().map(String::as_str).collect();
+        let parts = |mode: &str| -> Vec<String> {
+            let parts = mode.split(',').map(|part| part.trim().to_owned());
+            parts.collect()
+        };
+        let asked = parts(&unknown.name);
+        let agrees = |mode: &&&str| {
+            let said = parts(mode);
+            asked.iter().all(|part| said.contains(part))
+        };
+        let agree: Vec<String> = known
+            .iter()
+            .filter(agrees)
+            .map(|mode| format!("`{mode}`"))
+            .collect();
+        if !agree.is_empty() {
+            return Trouble::usage(format_args!(
+                "`{}` is not all of a mode; with that there are {}",
+                unknown.name,
+                agree.join(", ")
+            ));
+        }
         match nearest(&unknown.name, &known) {
             Some(near) => Trouble::usage(format_args!(
                 "no mode is called `{}`; did you mean `{near}`?",

@@ -1,7 +1,7 @@
 //! `lagrange new`: a declaration to start from, or a crate.
 
 use super::Trouble;
-use super::output::to_file;
+use super::output::{ready, to_file};
 use crate::file::{self, ENDING, TEMPLATE};
 use clap::Args;
 use std::fs;
@@ -80,6 +80,7 @@ impl New {
                 )
             });
         }
+        ready(Some(Path::new(&shown)), &[])?;
         to_file(Path::new(&shown), |out| out.write_all(TEMPLATE.as_bytes()))?;
         super::print(|out| writeln!(out, "{shown} is written; run it: lagrange run {shown}"))
     }

@@ -182,6 +182,13 @@ impl Report {
                 html::write(runs, self.speed, Some(&command), out)
             });
         }
+        let seen = |run: &Shown| !run.film.drawings.is_empty() || !run.film.spaces.is_empty();
+        if !runs.iter().any(seen) {
+            return Err(Trouble::usage(format_args!(
+                "nothing of {} is drawn: declare `draw(…)`, or write a page (--output report.html)",
+                runs[0].film.outcome.scene
+            )));
+        }
         let panels: Vec<Panel> = runs.iter().map(Shown::panel).collect();
         let clock = Clock::new(&panels, self.fps, self.speed).map_err(Trouble::usage)?;
         if let Some(folder) = &self.frames {
@@ -217,7 +224,11 @@ impl Report {
         folder: &Path,
     ) -> Result<(), Trouble> {
         std::fs::create_dir_all(folder).map_err(|error| {
-            Trouble::failed(format_args!("cannot make {}: {error}", folder.display()))
+            let why = match folder.is_file() {
+                true => "it is a file; frames go into a folder".to_owned(),
+                false => error.to_string(),
+            };
+            Trouble::failed(format_args!("cannot make {}: {why}", folder.display()))
         })?;
         let frame = |i: usize| folder.join(format!("frame-{:04}.{}", i + 1, form.ending()));
         let pictures: Vec<(usize, String)> = frames::stills(panels, clock).enumerate().collect();

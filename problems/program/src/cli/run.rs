@@ -198,18 +198,6 @@ fn shows(
 
 /// In which format the run goes into which file, or to stdout.
 fn destinations(outputs: &Outputs) -> Result<Vec<(RunFormat, Option<PathBuf>)>, Trouble> {
-    let named = |path: &PathBuf| match (RunFormat::of(path), path.extension()) {
-        (Some(format), _) => Ok(format),
-        (None, None) => Ok(RunFormat::Table),
-        (None, Some(_)) => Err(Trouble::usage(format_args!(
-            "the name {} says no format: let it end in .csv, .json, .jsonl, .parquet or .txt, or give --format{}",
-            path.display(),
-            match path.extension().is_some_and(|end| end == "svg") {
-                true => "; pictures are drawn with --plot",
-                false => "",
-            }
-        ))),
-    };
     let file = |path: &PathBuf| (path != Path::new("-")).then(|| path.clone());
     let destinations = match (outputs.format, &outputs.output[..]) {
         (format, []) => vec![(format.unwrap_or(RunFormat::Table), None)],
@@ -220,8 +208,9 @@ fn destinations(outputs: &Outputs) -> Result<Vec<(RunFormat, Option<PathBuf>)>, 
             return Err(Trouble::usage(reason));
         }
         (None, paths) => {
-            let one = |path: &PathBuf| Ok((named(path)?, file(path)));
-            paths.iter().map(one).collect::<Result<_, _>>()?
+            let one = |path: &PathBuf| Ok((RunFormat::named(path)?, file(path)));
+            let all: Result<_, String> = paths.iter().map(one).collect();
+            all.map_err(Trouble::usage)?
         }
     };
     let bytes = destinations.contains(&(RunFormat::Parquet, None));

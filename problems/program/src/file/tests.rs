@@ -136,6 +136,10 @@ fn what_only_a_file_has_is_checked() {
             "1:45: expected a time after the start, which is at 0, as in `until = 5`, found `-5` [E001]",
         ),
         (
+            format!("{rest}, until = 0"),
+            "1:45: expected a time after the start, which is at 0, as in `until = 5`, found `0` [E001]",
+        ),
+        (
             format!("{rest}, mass = 2"),
             "1:37: `mass` is not an item; a number that can be set stands in `parameters(mass = …)`, a name for an expression in \
              `define(mass = …)` [E010]",
@@ -147,6 +151,26 @@ fn what_only_a_file_has_is_checked() {
         (
             format!("{rest}, draw(circle: (x, 0))"),
             "1:42: `circle` is not the name of a form; did you mean `disc`? [E901]",
+        ),
+        (
+            format!("parameters(m: \"kg\" = 1 l[2]: \"m\" = 0.5), {rest}"),
+            "1:24: expected a comma before `l`",
+        ),
+        (
+            format!("parameters(l = 0,5), {rest}"),
+            "1:18: expected the name of a parameter (a decimal has a point: `0.5`), found `5`",
+        ),
+        (
+            format!("parameters(l = .5), {rest}"),
+            "1:16: `.5` is not a number of the language; write decimal digits",
+        ),
+        (
+            format!("{rest}, potential = math.sin(x)"),
+            "1:54: `.sin()` is the notation of programs; functions are written as in mathematics: `sin(x)`",
+        ),
+        (
+            format!("{rest}, potential = sin(30 deg)"),
+            "1:56: an operator is missing before `deg`; angles are in radians: 30° is `pi/6`",
         ),
     ] {
         let found = mistakes(&text);
@@ -169,6 +193,14 @@ fn what_cannot_be_read_is_named() {
         (
             "kinetic = \"a",
             "1:11: what begins here cannot be read; the quotation mark is not closed",
+        ),
+        (
+            "kinetic = 2·m·x^2",
+            "1:11: what begins here cannot be read; `·` is no character of the language; a product is written `a*b`",
+        ),
+        (
+            "kinetic = \\theta",
+            "1:11: what begins here cannot be read; `\\` is no character of the language; a letter is written by its name alone",
         ),
         (
             "kinetic = (1",

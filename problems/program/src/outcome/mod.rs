@@ -2,6 +2,7 @@
 
 mod join;
 pub(crate) mod pieces;
+mod rounding;
 mod sampling;
 
 use crate::request::Request;
@@ -72,6 +73,8 @@ pub struct Sample {
     pub state: State<f64>,
     /// λ of every row; for a friction its force along +slip.
     pub forces: Vec<f64>,
+    /// Per row: the size of what its force holds in balance.
+    pub held: Vec<f64>,
     /// Per row: whether the motion does not determine its force, so that the one of least norm is given; empty where all are determined.
     pub undetermined: Vec<bool>,
     /// What each friction can hold: μₛN while it sticks, μₖN while it slips, `None` while it is inactive.
@@ -211,7 +214,7 @@ impl Outcome {
             true => trajectory.ledgers(&times).unwrap_or_default(),
             false => Vec::new(),
         };
-        Outcome {
+        let mut outcome = Outcome {
             scene,
             description,
             parameters: (0..description.parameters.len())
@@ -245,7 +248,9 @@ impl Outcome {
             work: trajectory.work(),
             stiff: trajectory.stiff().to_vec(),
             failure,
-        }
+        };
+        outcome.take_out_rounding();
+        outcome
     }
 
     /// Whether what a force is of takes part.
@@ -270,9 +275,11 @@ impl Outcome {
             let is = |flags: &Vec<bool>| flags.get(row) == Some(&true);
             let events = self.events.iter();
             self.samples.iter().any(|s| is(&s.undetermined))
-                || events
-                    .clone()
-                    .any(|e| is(&e.undetermined) || is(&e.undetermined_after))
+                || events.clone().any(|e| {
+                    // What was tried first at the start never acted.
+                    let before = is(&e.undetermined) && !self.is_decided_at_start(e);
+                    before || is(&e.undetermined_after)
+                })
         };
         let all = forces(self.description).into_iter();
         all.filter(|force| open(force.row))
@@ -290,7 +297,8 @@ impl Outcome {
         let mut samples = self.samples.iter();
         samples.any(|s| slides(&s.mode, &s.undetermined))
             || self.events.iter().any(|e| {
-                slides(&e.before, &e.undetermined) || slides(&e.after, &e.undetermined_after)
+                let before = slides(&e.before, &e.undetermined) && !self.is_decided_at_start(e);
+                before || slides(&e.after, &e.undetermined_after)
             })
     }
 

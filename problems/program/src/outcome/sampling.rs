@@ -166,6 +166,7 @@ impl<'a> Reader<'a> {
             mode: instant.mode,
             state: instant.state,
             forces: instant.forces,
+            held: instant.held,
             undetermined: instant.undetermined,
             observes: instant.observes,
         }

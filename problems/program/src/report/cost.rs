@@ -44,7 +44,7 @@ pub fn table(costs: &Costs, mut out: impl Write) -> io::Result<()> {
     }
     writeln!(
         out,
-        "A whole run with everything takes {:.1} µs. 0: the effect does not act in the mode, and costs nothing there.",
+        "A whole run with everything takes {:.1} µs. 0: the effect does not act in the mode, or adds no operation.",
         costs.run * 1e6
     )?;
     for effect in &costs.effects {

@@ -6,7 +6,7 @@
 use super::telling;
 use super::words::{FEW, MANY, brief, changed};
 use crate::notation::{is_angle, symbol};
-use crate::outcome::{Force, Outcome, Sample, Source, forces};
+use crate::outcome::{Force, Outcome, Sample, forces};
 use comfy_table::{
     CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, Table, TableStyle, Width,
 };
@@ -266,7 +266,8 @@ impl Column {
         Some(line.state[self.place]? * self.scale)
     }
 
-    /// As many as the lines need. A coordinate that is nothing but error in all of them is shown beside how far its velocities carry it.
+    /// As many as the lines need. What is nothing but error in all of them is shown beside how far its velocities carry a coordinate, or what an
+    /// output ever is.
     fn decimals(&self, lines: &[Line], outcome: &Outcome) -> Decimals {
         let told: Vec<f64> = lines.iter().filter_map(|line| self.of(line)).collect();
         let largest = |values: &[f64]| values.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
@@ -276,9 +277,18 @@ impl Column {
         let speeds: Vec<f64> = states
             .filter_map(|state| state.v.get(self.place).copied())
             .collect();
-        let way = largest(&speeds) * outcome.lasts() * self.scale;
-        match largest(&told) < outcome.tolerance * way {
-            true => Decimals::of([way]),
+        let output = self
+            .place
+            .checked_sub(outcome.description.coordinates.len());
+        let ever = match output {
+            Some(i) => {
+                let values = outcome.samples.iter().map(|sample| sample.observes[i]);
+                largest(&values.collect::<Vec<_>>())
+            }
+            None => largest(&speeds) * outcome.lasts() * self.scale,
+        };
+        match largest(&told) < outcome.tolerance * ever {
+            true => Decimals::of([ever]),
             false => Decimals::of(told),
         }
     }
@@ -326,22 +336,32 @@ fn shown(description: &Description, forces: usize) -> Vec<Column> {
     places.into_iter().map(column).collect()
 }
 
-/// As many as the lines need. A component of a friction that is nothing but error beside the other one is shown like that one.
-fn decimals_of_forces(items: &[Force], lines: &[Line], tolerance: f64) -> Vec<Decimals> {
+/// As many as the lines need. What is nothing but error in all of them is shown like what it is an error of: the other component of its
+/// friction, what the force holds in balance, or, of rounding alone, the largest force of its unit.
+fn decimals_of_forces(items: &[Force], lines: &[Line], outcome: &Outcome) -> Vec<Decimals> {
     let told = |k: usize| {
         let sides = lines.iter().flat_map(|line| [&line.upper, &line.lower]);
         sides.filter_map(move |forces| *forces.get(k)?)
     };
-    let largest = |k: usize| told(k).fold(0.0, |largest: f64, x| largest.max(x.abs()));
-    let whole = |source: Source| {
-        let components = (0..items.len()).filter(|&k| items[k].source == source);
-        components.map(largest).fold(0.0, f64::max)
+    let largest: Vec<f64> = (0..items.len())
+        .map(|k| told(k).fold(0.0, |a: f64, x| a.max(x.abs())))
+        .collect();
+    let of_all = |alike: &dyn Fn(&Force) -> bool| {
+        let all = items.iter().zip(&largest);
+        let alike = all.filter(|(item, _)| alike(item));
+        alike.fold(0.0, |a: f64, (_, x)| a.max(*x))
     };
+    let unit = |item: &Force| outcome.description.units.row(item.row);
     let decimals = |(k, item): (usize, &Force)| {
-        let whole = whole(item.source);
-        match largest(k) < tolerance * whole {
-            true => Decimals::of([whole]),
-            false => Decimals::of(told(k)),
+        let held = outcome.samples.iter().map(|sample| sample.held[item.row]);
+        let whole = held.fold(of_all(&|other| other.source == item.source), f64::max);
+        let beside = of_all(&|other| unit(other) == unit(item));
+        if largest[k] < outcome.tolerance * whole {
+            Decimals::of([whole])
+        } else if largest[k] < f64::EPSILON * beside {
+            Decimals::of([beside])
+        } else {
+            Decimals::of(told(k))
         }
     };
     items.iter().enumerate().map(decimals).collect()
@@ -374,7 +394,7 @@ fn story(outcome: &Outcome) -> Table {
         .iter()
         .map(|column| column.decimals(&lines, outcome))
         .collect();
-    let of_forces = decimals_of_forces(&items, &lines, outcome.tolerance);
+    let of_forces = decimals_of_forces(&items, &lines, outcome);
     let lasts = outcome.lasts();
     for line in &lines {
         let mut row = vec![time(line.time, lasts)];
@@ -660,6 +680,39 @@ mod tests {
             slips.is_some_and(|line| line.contains("-1.0000 0.0000")),
             "{lines:#?}"
         );
+    }
+
+    /// A bead in a hoop that turns: where it does not move along the hoop, what turns the hoop needs no torque.
+    #[test]
+    fn a_force_that_is_rounding_beside_others_is_shown_as_zero() {
+        let lines = story(
+            "coordinates(r, theta, psi), parameters(w = 3), kinetic = (der(r)^2 + r^2*der(theta)^2 + r^2*sin(theta)^2*der(psi)^2)/2,
+             potential = -10*r*cos(theta), constraint(hoop: r == 1), constraint(turning: psi == w*t),
+             stop(rests: t >= 1 and der(theta) >= 0), start(out: r = 1, theta = 1, der(psi) = w), until = 3",
+        );
+        let stop = lines.iter().find(|line| line.contains("rests stop"));
+        assert!(
+            stop.is_some_and(|line| line.contains(" -11.776 0.000 ")),
+            "{lines:#?}"
+        );
+    }
+
+    /// A ladder that slips at once at both ends: while it slips its forces are determined.
+    #[test]
+    fn what_never_acted_is_not_told_as_undetermined() {
+        let lines = story(
+            "parameters(m: \"kg\" = 10, l: \"m\" = 2, g: \"m/s^2\" = 9.81, lean = 0.7), coordinates(x: \"m\", y: \"m\", theta),
+             kinetic = m/2*(der(x)^2 + der(y)^2) + m*l^2/6*der(theta)^2, potential = m*g*y,
+             contact(floor: y - l*cos(theta) >= 0), contact(wall: x + l*sin(theta) <= 0),
+             friction(foot on floor: slip = der(x - l*sin(theta)), static = 0.3),
+             friction(head on wall: slip = der(y + l*cos(theta)), static = 0.2),
+             start(leaning: theta = lean, x = -l*sin(lean), y = l*cos(lean)), until = 0.2",
+        );
+        assert!(
+            lines.iter().any(|line| line.contains("foot slips")),
+            "{lines:#?}"
+        );
+        assert!(lines.iter().all(|line| !line.starts_with("Not determined")));
     }
 
     /// Two blocks that are pulled too hard, and one that is not: nobody sees the two stick, and 10 N on 2 N of friction are 4 m in a second.

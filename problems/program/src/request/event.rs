@@ -105,8 +105,8 @@ mod tests {
     #[test]
     fn an_event_in_other_words_is_recognised() {
         let declared =
-            "coordinates(x), kinetic = der(x)^2, contact(right: x <= 1), stop(end: x <= -1),
-            friction(rub on right: slip = der(x), static = 1), start(a: x = 0),";
+            "coordinates(x, y), kinetic = der(x)^2 + der(y)^2, contact(right: x <= 1), stop(end: x <= -1),
+            friction(rub on right: slip = der(y), static = 1), start(a: x = 0),";
         let scene = crate::file::scene("walls.lagrange", declared).expect("a declaration");
         for (said, answer) in [
             ("right hit", "did you mean `right impact`?"),

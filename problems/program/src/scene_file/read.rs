@@ -201,9 +201,10 @@ impl Reader<'_> {
             match key.get_ref().as_ref() {
                 "format" => outputs.format = self.take(value, format),
                 "output" => {
-                    let paths = self.take(value, texts).unwrap_or_default();
-                    let paths = paths.into_iter().map(|(_, path)| self.path(path.into()));
-                    outputs.output = paths.collect();
+                    let says = !table.contains_key("format");
+                    let paths = self.take(value, |value| results(value, says));
+                    let paths = paths.unwrap_or_default().into_iter();
+                    outputs.output = paths.map(|path| self.path(path)).collect();
                 }
                 "plot" => outputs.plot = self.take(value, picture).map(|path| self.path(path)),
                 "show" => {
@@ -288,6 +289,16 @@ fn count(value: &Value, most: usize) -> Result<usize, Wrong> {
 }
 
 /// A file for a picture.
+/// Files of numbers, whose names say their formats if nothing else does.
+fn results(value: &Value, says: bool) -> Result<Vec<PathBuf>, Wrong> {
+    let paths = texts(value)?.into_iter();
+    let known = paths.map(|(byte, path)| match RunFormat::named(Path::new(path)) {
+        Err(reason) if says => Err((byte, reason)),
+        _ => Ok(PathBuf::from(path)),
+    });
+    known.collect()
+}
+
 fn picture(value: &Value) -> Result<PathBuf, Wrong> {
     let path = PathBuf::from(text(value)?);
     let known = Still::of(&path).map_err(|reason| (value.span().start, reason));

@@ -7,7 +7,7 @@ use crate::scene::Scene;
 use serde::Serialize;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf, absolute};
 
 /// The file as it is written.
 #[derive(Serialize)]
@@ -67,12 +67,21 @@ fn is_empty<T>(list: &&[T]) -> bool {
 
 /// A path as it is written in a file of `folder`.
 fn beside(path: &Path, folder: &Path) -> PathBuf {
-    let here = folder.as_os_str().is_empty() || path == Path::new("-");
-    match path.strip_prefix(folder) {
-        _ if here => path.to_owned(),
-        Ok(inner) => inner.to_owned(),
-        Err(_) => std::path::absolute(path).unwrap_or_else(|_| path.to_owned()),
+    if folder.as_os_str().is_empty() || path == Path::new("-") {
+        return path.to_owned();
     }
+    let (Ok(whole), Ok(folder)) = (absolute(path), absolute(folder)) else {
+        return path.to_owned();
+    };
+    let both = whole.components().zip(folder.components());
+    let shared = both.take_while(|(a, b)| a == b).count();
+    let below = || folder.components().skip(shared);
+    // With nothing but the root in common they have no way to each other that could be kept; `..` may lead through a link.
+    if shared <= 1 || below().any(|part| part == Component::ParentDir) {
+        return whole;
+    }
+    let up = below().map(|_| Component::ParentDir);
+    up.chain(whole.components().skip(shared)).collect()
 }
 
 /// The scene file of a run, for a file in `folder`; [`read`](super::read) gives the same run again.

@@ -1,11 +1,21 @@
 //! The switches of a run in their order, as one number that is kept like any other result of a sweep, and as words.
 //!
-//! The number has a digit for each switch, the first one lowest; the base is the number of switches that a scene can have, and two
-//! more: for the end and for "and so on". As many are kept as whole numbers of a double have room for, 16 where there are eight
-//! kinds. The same switch again and again counts once: how often a ball bounces does not make another sequence.
+//! ```text
+//! few switches     digits, the first switch lowest
+//! more             the first digits │ "and so on" │ a hash of all of them, 32 bits
+//! ```
+//!
+//! The base of the digits is the number of switches that a scene can have, and two more: for the end and for "and so on". A sequence is
+//! kept as it is where whole numbers of a double have room for it, 15 switches where there are eight kinds. Else its first ones are
+//! read, and the hash tells it from others that begin alike. The same switch again and again counts once: how often a ball bounces does
+//! not make another sequence.
 
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
+use twox_hash::XxHash64;
+
+/// Bits of the hash.
+const HASH: u32 = 32;
 
 /// The switches that a scene can have.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,9 +55,9 @@ impl Switches {
         self.kinds.len() as u64 + 2
     }
 
-    /// Switches that a number has room for.
-    fn room(&self) -> usize {
-        (f64::from(f64::MANTISSA_DIGITS) / (self.base() as f64).log2()) as usize
+    /// Switches that so many bits have room for.
+    fn room(&self, bits: u32) -> usize {
+        (f64::from(bits) / (self.base() as f64).log2()) as usize
     }
 
     /// The number of a run's events; marks are no switches.
@@ -60,25 +70,83 @@ impl Switches {
         };
         let mut digits: Vec<u64> = events.iter().filter_map(digit).collect();
         digits.dedup();
-        if digits.len() > self.room() {
-            digits.truncate(self.room() - 1);
+        self.packed(digits)
+    }
+
+    fn packed(&self, mut digits: Vec<u64>) -> f64 {
+        let mut rest = 0;
+        if digits.len() > self.room(f64::MANTISSA_DIGITS) {
+            let bytes: Vec<u8> = digits
+                .iter()
+                .flat_map(|digit| digit.to_le_bytes())
+                .collect();
+            rest = XxHash64::oneshot(0, &bytes) >> (u64::BITS - HASH);
+            let readable = self.room(f64::MANTISSA_DIGITS - HASH);
+            digits.truncate(readable.saturating_sub(1));
             digits.push(self.base() - 1);
         }
         digits
             .iter()
-            .rfold(0, |number, digit| number * self.base() + digit) as f64
+            .rfold(rest, |number, digit| number * self.base() + digit) as f64
     }
 
-    /// A number in words, one for each switch.
-    pub(super) fn words(&self, number: f64) -> Vec<&str> {
+    /// A number in words, one for each switch, and one for all that it has no room for.
+    pub(super) fn words(&self, number: f64) -> Vec<String> {
         let mut rest = number as u64;
         let mut words = Vec::new();
         while rest > 0 {
             let digit = (rest % self.base()) as usize;
-            let kind = digit.checked_sub(1).and_then(|index| self.kinds.get(index));
-            words.push(kind.map_or("…", |(_, _, words)| words.as_str()));
             rest /= self.base();
+            match digit.checked_sub(1).and_then(|index| self.kinds.get(index)) {
+                Some((_, _, switch)) => words.push(switch.clone()),
+                None => {
+                    words.push(format!("… {rest:08x}"));
+                    break;
+                }
+            }
         }
         words
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::file;
+    use std::collections::BTreeSet;
+
+    /// Two switches that take turns in all ways: 2ⁿ sequences of n, of which those of 40 differ from others in one place alone.
+    #[test]
+    fn sequences_that_differ_have_different_numbers() {
+        let declared = "coordinates(x, y), kinetic = der(x)^2 + der(y)^2, contact(floor: x >= 0), contact(wall: y >= 0)";
+        let scene = file::scene("switches.lagrange", declared).expect("a declaration");
+        let switches = Switches::of(scene.description());
+        assert_eq!(switches.base(), 10);
+        let short = [1, 4, 2, 8, 5, 7, 1, 3, 1, 2, 3, 4, 5, 6, 7].to_vec();
+        let all = switches.words(switches.packed(short.clone()));
+        let told = short
+            .iter()
+            .map(|digit| &switches.kinds[*digit as usize - 1].2);
+        assert!(all.iter().eq(told), "{all:?}");
+        let long: Vec<u64> = (0..40).map(|k| 1 + k % 3).collect();
+        let others = (0..40).map(|k| {
+            let mut other = long.clone();
+            other[k] = 7;
+            other
+        });
+        let others = others.chain([long.clone(), long[..39].to_vec()]);
+        let numbers: BTreeSet<u64> = others.map(|it| switches.packed(it) as u64).collect();
+        assert_eq!(numbers.len(), 42);
+        assert!(
+            numbers
+                .iter()
+                .all(|number| *number < 1 << f64::MANTISSA_DIGITS)
+        );
+        let words = switches.words(switches.packed(long));
+        assert_eq!(words[..2], ["floor lost", "floor closed"]);
+        let [.., last] = &words[..] else {
+            panic!("words")
+        };
+        assert!(last.starts_with("… ") && words.len() == 6, "{words:?}");
     }
 }

@@ -89,8 +89,8 @@ impl Observation {
         }
     }
 
-    /// A value in words, one for each switch, if it stands for a sequence of switches.
-    pub fn words(&self, value: f64) -> Option<Vec<&str>> {
+    /// A value in words, one for each switch and one for those that are too many, if it stands for a sequence of switches.
+    pub fn words(&self, value: f64) -> Option<Vec<String>> {
         match &self.what {
             What::Modes(switches) if !value.is_nan() => Some(switches.words(value)),
             _ => None,

@@ -130,6 +130,11 @@ impl Reader<'_> {
         let mut terms = Vec::new();
         for (moving, group) in groups {
             let coefficient = self.pool.linear(Rational::ZERO, group);
+            // What a force balances exactly is no part of what is left.
+            let flat = self.pool.expand(coefficient);
+            if self.pool.is_zero(flat) {
+                continue;
+            }
             let mut factors = moving;
             if !factors.is_empty() {
                 factors.push((coefficient, Rational::ONE));

@@ -3,6 +3,7 @@
 use super::{derivation, scenes};
 use crate::inspect::print;
 use expect_test::expect_file;
+use quote::quote;
 
 /// The derivations of the textbook scenes, and of a smooth one, as they stand in `golden/`. `UPDATE_EXPECT=1 cargo test`
 /// accepts what reads better.
@@ -23,6 +24,30 @@ fn derivations_of_the_textbook_scenes() {
             expect_file![format!("../golden/{name}.tex")].assert_eq(&print::paper(&d));
         }
     }
+}
+
+/// A motor that carries the weight of an arm as if it were stretched: what the weight of its outer half moves alone is left.
+#[test]
+fn what_a_force_balances_exactly_is_not_written() {
+    let declared = quote! {
+        #[lagrange(
+            coordinates(q, p),
+            define(c = [l/2*cos(q), l/2*sin(q)]),
+            define(d = [l*cos(q) + h/2*cos(q + p), l*sin(q) + h/2*sin(q + p)]),
+            kinetic = m/2*dot(der(c), der(c)) + n/2*dot(der(d), der(d)),
+            potential = m*g*c[1] + n*g*d[1],
+            force(motor: q = -k*q + g*(m*l/2 + n*l)*cos(q)),
+        )]
+        struct Arm { m: f64, n: f64, l: f64, h: f64, g: f64, k: f64 }
+    };
+    let plain = print::plain(&derivation(declared));
+    let (_, equations) = plain.split_once("Equations of motion").expect("equations");
+    let (first, _) = equations.split_once("\n  p ").expect("two equations");
+    let (_, forces) = first.split_once("sin p").expect("a force of Coriolis");
+    assert!(
+        forces.contains("cos(q + p)") && !forces.contains("cos q"),
+        "{first}"
+    );
 }
 
 #[test]

@@ -305,6 +305,25 @@ fn what_is_no_unit_is_told_at_its_text() {
         said("deg"),
         "1:27 E702 `deg` is a multiple of rad; numbers are not converted: write `rad`, and give the values in it"
     );
+    for (unit, coherent) in [
+        ("rpm", "rad/s"),
+        ("\u{b0}/s", "rad/s"),
+        ("rev", "rad"),
+        ("mrad", "rad"),
+        ("%", "1"),
+        ("kHz", "1/s"),
+    ] {
+        let told = format!("`{unit}` is a multiple of {coherent};");
+        assert!(said(unit).contains(&told), "{}", said(unit));
+    }
+    for (unit, meant) in [
+        ("Kg", "did you mean `kg`?"),
+        ("Nms", "a product is written with a blank: `N m s`"),
+        ("Nmm", "a product is written with a blank: `N mm`"),
+        ("kgm^2", "a product is written with a blank: `kg m`"),
+    ] {
+        assert!(said(unit).contains(meant), "{}", said(unit));
+    }
     assert_eq!(said("metre"), "1:27 E701 `metre` is not a unit; write `m`");
     assert_eq!(
         said("J/kg K"),

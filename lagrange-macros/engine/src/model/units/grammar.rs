@@ -38,12 +38,8 @@ pub(in crate::model) fn unit(text: &str) -> Result<Unit, Refusal> {
     if reader.peek().is_some() {
         return Err(reader.unexpected());
     }
-    if found.odd || !found.ten.is_zero() {
-        let coherent = match found.dimension.text() {
-            angle if angle.is_empty() => "rad".to_string(),
-            coherent => coherent,
-        };
-        return Err(Refusal::Multiple(coherent));
+    if !found.is_coherent() {
+        return Err(Refusal::Multiple(found.coherent()));
     }
     let text = match reader.text.as_str() {
         "1" => String::new(),

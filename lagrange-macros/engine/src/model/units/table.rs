@@ -58,6 +58,9 @@ const ODD: [(&str, Dimension); 19] = [
     ("eV", Dimension::ENERGY),
 ];
 
+/// Those of angles and of their rates.
+const ANGLES: [&str; 6] = ["deg", "degree", "degrees", "\u{b0}", "rev", "rpm"];
+
 /// Prefixes and their powers of ten.
 const PREFIXES: [(&str, i64); 14] = [
     ("da", 1),
@@ -103,6 +106,8 @@ pub(super) struct Scaled {
     pub ten: Rational,
     /// Whether a unit of [`ODD`] is in it.
     pub odd: bool,
+    /// Whether a unit of angles is in it.
+    pub angle: bool,
 }
 
 impl Scaled {
@@ -110,7 +115,25 @@ impl Scaled {
         dimension: Dimension::ONE,
         ten: Rational::ZERO,
         odd: false,
+        angle: false,
     };
+
+    /// Whether it is coherent: no multiple.
+    pub fn is_coherent(self) -> bool {
+        !self.odd && self.ten.is_zero()
+    }
+
+    /// The coherent unit of its dimension.
+    pub fn coherent(self) -> String {
+        let text = match self.dimension.text() {
+            plain if plain.is_empty() => "1".to_string(),
+            text => text,
+        };
+        match text.strip_prefix('1').filter(|_| self.angle) {
+            Some(rest) => format!("rad{rest}"),
+            None => text,
+        }
+    }
 
     /// self · otherʳ
     pub fn times(self, other: Scaled, r: Rational) -> Result<Scaled, Refusal> {
@@ -119,6 +142,7 @@ impl Scaled {
                 dimension: self.dimension.times(other.dimension, r)?,
                 ten: self.ten.checked_add(other.ten.checked_mul(r)?)?,
                 odd: self.odd || other.odd,
+                angle: self.angle || other.angle,
             })
         };
         product().ok_or_else(|| form("this power is too large", "write a small number"))
@@ -128,10 +152,11 @@ impl Scaled {
 /// A unit's symbol, with a prefix or without.
 pub(super) fn known(symbol: &str) -> Result<Scaled, Refusal> {
     let plain = |symbol: &str| UNITS.iter().find(|(known, ..)| *known == symbol);
-    let scaled = |&(_, dimension, ten): &(&str, Dimension, i64), more: i64| Scaled {
+    let scaled = |&(unit, dimension, ten): &(&str, Dimension, i64), more: i64| Scaled {
         dimension,
         ten: Rational::integer(ten + more),
         odd: false,
+        angle: unit == "rad",
     };
     if let Some(found) = plain(symbol) {
         return Ok(scaled(found, 0));
@@ -141,6 +166,7 @@ pub(super) fn known(symbol: &str) -> Result<Scaled, Refusal> {
             dimension: *dimension,
             ten: Rational::ZERO,
             odd: true,
+            angle: ANGLES.contains(&symbol),
         });
     }
     let prefixed = PREFIXES.iter().find_map(|(prefix, ten)| {
@@ -152,25 +178,34 @@ pub(super) fn known(symbol: &str) -> Result<Scaled, Refusal> {
 
 /// What an unknown symbol may be meant to be.
 fn meant(symbol: &str) -> String {
-    let is_known = |part: &str| known(part).is_ok();
     let word = WORDS
         .iter()
         .find(|(word, _)| word.eq_ignore_ascii_case(symbol));
     if let Some((_, unit)) = word {
         return format!("write `{unit}`");
     }
-    let mut cuts = symbol
-        .char_indices()
-        .skip(1)
-        .map(|(at, _)| symbol.split_at(at));
-    if let Some((first, second)) = cuts
-        .find(|(first, second)| UNITS.iter().any(|(unit, ..)| unit == first) && is_known(second))
-    {
-        return format!("a product is written with a blank: `{first} {second}`");
-    }
     let units = UNITS.iter().map(|(unit, ..)| *unit).chain(["kg"]);
-    match nearest(symbol, units) {
-        Some(unit) => format!("did you mean `{unit}`?"),
+    let coherent = product(symbol, Scaled::is_coherent);
+    let near = nearest(symbol, units).filter(|_| coherent.is_none());
+    if let Some(unit) = near {
+        return format!("did you mean `{unit}`?");
+    }
+    match coherent.or_else(|| product(symbol, |_| true)) {
+        Some(product) => format!("a product is written with a blank: `{product}`"),
         None => "units are those of the SI: `kg m^2/s^2`, `N m`, `rad`".to_string(),
     }
+}
+
+/// Coherent units one after the other, of which the last may be any `allowed` one: `Nms` → `N m s`. The same one twice would be a square.
+fn product(symbol: &str, allowed: impl Fn(Scaled) -> bool + Copy) -> Option<String> {
+    let cuts = symbol.char_indices().skip(1);
+    let mut cuts = cuts.map(|(at, _)| symbol.split_at(at));
+    cuts.find_map(|(first, rest)| {
+        known(first).ok().filter(|unit| unit.is_coherent())?;
+        let rest = match known(rest) {
+            Ok(unit) if allowed(unit) => rest.to_string(),
+            _ => product(rest, allowed)?,
+        };
+        (rest.split(' ').next() != Some(first)).then(|| format!("{first} {rest}"))
+    })
 }

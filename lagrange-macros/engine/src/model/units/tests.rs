@@ -83,7 +83,7 @@ fn multiples_are_told_with_their_coherent_unit() {
         ("min", "s"),
         ("km/h", "m/s"),
         ("kN", "N"),
-        ("rpm", "1/s"),
+        ("rpm", "rad/s"),
         ("mrad", "rad"),
     ];
     for (text, coherent) in multiples {

@@ -55,7 +55,11 @@ impl Parameters {
 /// before it.
 fn parameter(part: &mut Cursor, sink: &mut Diagnostics) -> Option<(Field, Expr)> {
     let attributes = attributes(part, sink)?;
-    let name = part.name("the name of a parameter", sink)?;
+    let name = match part.peek() {
+        Some(TokenTree::Literal(_)) => "the name of a parameter (a decimal has a point: `0.5`)",
+        _ => "the name of a parameter",
+    };
+    let name = part.name(name, sink)?;
     let length = match part.take_group(Delimiter::Bracket) {
         None => None,
         Some(group) => Some(length(&mut part.inside(&group, sink)?, sink)?),

@@ -3,9 +3,9 @@
 use super::super::{significant, with_unit};
 use super::difference::difference;
 use crate::film::Film;
-use crate::notation::{is_angle, rate_unit, symbol};
+use crate::notation::symbol;
 use crate::outcome::{Force, Outcome, Sample, Source, forces};
-use crate::quantity::{force_word, limit_name};
+use crate::quantity::{Quantity, force_word, limit_name};
 use lagrange_core::prelude::Ledger;
 use lagrange_core::system::Friction;
 use serde::Serialize;
@@ -48,7 +48,7 @@ pub(super) struct Portrait {
 #[derive(Serialize)]
 pub(super) struct Output {
     name: &'static str,
-    unit: &'static str,
+    unit: String,
     values: Vec<f64>,
 }
 
@@ -57,8 +57,10 @@ pub(super) fn outputs(outcome: &Outcome) -> Vec<Output> {
     let list = outcome.description.observes.iter().enumerate();
     let output = |(i, observe): (usize, &lagrange_core::system::Observe)| Output {
         name: observe.name,
-        unit: observe.unit,
-        values: over(outcome, |sample| sample.observes[i]),
+        unit: Quantity::Output(i).unit(outcome.description),
+        values: over(outcome, |sample| {
+            Quantity::Output(i).scale(outcome.description) * sample.observes[i]
+        }),
     };
     list.map(output).collect()
 }
@@ -217,26 +219,25 @@ fn work(film: &Film) -> Option<Plot> {
 
 /// The coordinates; with how far they are from those of another run, if one is given.
 pub(super) fn portraits(outcome: &Outcome, other: Option<&Outcome>) -> Vec<Portrait> {
-    let coordinates = outcome.description.coordinates;
-    let shown = coordinates.iter().enumerate().take(PORTRAITS);
-    shown
-        .map(|(i, coordinate)| {
-            let unit = match is_angle(coordinate) {
-                true => "rad",
-                false => coordinate.unit,
-            };
-            Portrait {
-                name: symbol(coordinate.name),
-                unit: unit.to_owned(),
-                rate_unit: rate_unit(unit),
-                q: over(outcome, |sample| sample.state.q[i]),
-                v: over(outcome, |sample| sample.state.v[i]),
-                apart: other.map_or(Vec::new(), |other| {
-                    let apart = difference(outcome, other, i).into_iter();
-                    apart.map(|value| value.map(significant)).collect()
-                }),
-            }
-        })
+    let d = outcome.description;
+    let portrait = |i: usize| {
+        let (q, v) = (Quantity::Position(i), Quantity::Velocity(i));
+        Portrait {
+            name: symbol(d.coordinates[i].name),
+            unit: q.unit(d),
+            rate_unit: v.unit(d),
+            q: over(outcome, |sample| q.scale(d) * sample.state.q[i]),
+            v: over(outcome, |sample| v.scale(d) * sample.state.v[i]),
+            apart: other.map_or(Vec::new(), |other| {
+                let apart = difference(outcome, other, i).into_iter();
+                apart
+                    .map(|value| value.map(|x| significant(q.scale(d) * x)))
+                    .collect()
+            }),
+        }
+    };
+    (0..d.coordinates.len().min(PORTRAITS))
+        .map(portrait)
         .collect()
 }
 
@@ -283,7 +284,33 @@ fn is_false(flag: &bool) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::short;
+    use super::{portraits, short};
+    use crate::file;
+    use crate::request::Request;
+
+    /// Half a turn in a second.
+    #[test]
+    fn angles_are_in_degrees() {
+        let declared = "coordinates(phi: \"rad\"), parameters(j: \"kg m^2\" = 1), kinetic = j/2*der(phi)^2, start(spun: der(phi) = pi), until = 1";
+        let scene = file::scene("spun.lagrange", declared).expect("a declaration");
+        let outcome = scene
+            .run(&Request {
+                samples: 2,
+                ..Request::default()
+            })
+            .expect("a run");
+        let [portrait] = &portraits(&outcome, None)[..] else {
+            panic!("one coordinate")
+        };
+        assert_eq!(
+            (portrait.unit.as_str(), portrait.rate_unit.as_str()),
+            ("°", "°/s")
+        );
+        assert_eq!(
+            (&portrait.q[..], portrait.v[1]),
+            (&[0.0, 90.0, 180.0][..], 180.0)
+        );
+    }
 
     /// A length that changes by a hundred-thousandth is a curve, not three steps.
     #[test]

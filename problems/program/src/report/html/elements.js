@@ -21,7 +21,37 @@ function html(kind, attributes, parent, text) {
   return element;
 }
 
-const colour = (i) => `var(--c${i % 6})`;
+// How many colours are taken in turn.
+const TURN = 12;
+const colour = (i) => `var(--c${i % TURN})`;
+
+// Phases by what is seen of them in a bar of modes: those too short to be told apart stand together, but over no more than a stripe.
+function gathered(phases, part) {
+  const SHORT = 0.004, STRIPE = 0.02;
+  const long = (first, last) => part(last.to) - part(first.from);
+  return phases.reduce((groups, phase) => {
+    const group = groups[groups.length - 1];
+    const short = group && long(group[0], group[0]) < SHORT && long(phase, phase) < SHORT;
+    if (short && long(group[0], phase) < STRIPE) group.push(phase);
+    else groups.push([phase]);
+    return groups;
+  }, []);
+}
+
+// The ground of such a group: a layer for each mode, as high as the mode takes part, in the same order everywhere.
+function layers(phases, modes) {
+  const lasts = new Map();
+  for (const { from, to, mode } of phases) lasts.set(mode, (lasts.get(mode) || 0) + to - from);
+  const all = [...lasts.values()].reduce((a, b) => a + b, 0);
+  let below = 0;
+  const seen = modes.filter((mode) => lasts.has(mode));
+  const stops = seen.map((mode) => {
+    const above = below;
+    below += all > 0 ? (100 * lasts.get(mode)) / all : 100;
+    return `${colour(modes.indexOf(mode))} ${above}% ${below}%`;
+  });
+  return lasts.size > 1 ? `linear-gradient(${stops.join(", ")})` : colour(modes.indexOf(phases[0].mode));
+}
 
 const digits = (x) => (x === null || x === undefined ? "–" : Number(x.toPrecision(4)).toString().replace("-", "−"));
 

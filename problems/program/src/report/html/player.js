@@ -54,9 +54,12 @@
     bar.setAttribute("aria-hidden", "true");
     bar.hidden = words.hidden = run.one_mode;
     const last = run.time[run.time.length - 1], begin = run.time[0], part = (t) => (t - first) / duration;
-    const blocks = run.phases.map(({ from, to, mode }) => {
-      const place = `left: ${100 * part(from)}%; width: ${100 * part(to) - 100 * part(from)}%`;
-      return html("span", { title: mode, style: `${place}; background: ${colour(modes.indexOf(mode))}` }, bar);
+    const blocks = gathered(run.phases, part).flatMap((phases) => {
+      const [from, to] = [phases[0].from, phases[phases.length - 1].to].map(part);
+      const title = [...new Set(phases.map((phase) => phase.mode))].join("; ");
+      const place = `left: ${100 * from}%; width: ${100 * (to - from)}%; background: ${layers(phases, modes)}`;
+      const block = html("span", { title, style: place }, bar);
+      return phases.map(() => block);
     });
     const own = [...new Set(run.phases.map((phase) => phase.mode))];
     const legend = html("ul", { class: "legend" });
@@ -74,7 +77,8 @@
       const phase = run.phases.findLast((phase) => phase.from <= t) || run.phases[0];
       const text = phase ? `Mode: ${phase.mode || "one"}${t > last ? " (ended)" : ""}` : "";
       if (words.textContent !== text) words.textContent = text;
-      blocks.forEach((block, i) => block.classList.toggle("present", run.phases[i] === phase));
+      const present = blocks[run.phases.indexOf(phase)];
+      for (const block of blocks) block.classList.toggle("present", block === present);
       cursor.style.left = `${(Math.min(Math.max(part(t), 0), 1) * 100).toFixed(2)}%`;
     };
   }

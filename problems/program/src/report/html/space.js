@@ -27,7 +27,7 @@ function space(stage, run) {
       const text = style.getPropertyValue(`--${name}`).trim();
       return [1, 3, 5].map((i) => parseInt(text.slice(i, i + 2), 16) / 255);
     };
-    for (const name of ["page", "card", "line", "edge", "ink", "quiet", "body", "c0", "c1", "c2", "c3", "c4", "c5"]) colours[name] = read(name);
+    for (const name of ["page", "card", "line", "edge", "ink", "quiet", "body", ...Array.from({ length: TURN }, (_, i) => `c${i}`)]) colours[name] = read(name);
     colours.dark = [0, 0, 0];
   };
   paint();
@@ -86,7 +86,7 @@ function space(stage, run) {
   const pointed = arrows.map((arrow, i) => {
     const name = svg("text", { class: "name", style: `fill: ${colour(i)}` }, over);
     name.textContent = arrow.name;
-    return { ...arrow, label: name, value: entry(legend, arrow.impulse ? arrow.name : `force ${arrow.name}`, colour(i)), paint: `c${i % 6}` };
+    return { ...arrow, label: name, value: entry(legend, arrow.impulse ? arrow.name : `force ${arrow.name}`, colour(i)), paint: `c${i % TURN}` };
   });
   if (cut) html("p", { class: "note" }, stage, "The strongest forces are drawn shorter than they are.");
   const scale = svg("text", { class: "words", x: 10 }, over);

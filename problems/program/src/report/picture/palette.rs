@@ -1,7 +1,7 @@
 //! Colours by name, for light and dark pages; text stands out from its ground by a factor of 4.5 at least (WCAG 2.2, AA).
 
 /// Name, on light pages, on dark pages.
-const COLOURS: [(&str, [&str; 2]); 17] = [
+const COLOURS: [(&str, [&str; 2]); 23] = [
     ("page", ["#ffffff", "#14171b"]),
     ("card", ["#f6f7f9", "#1d2126"]),
     ("ink", ["#1b1f24", "#e8eaed"]),
@@ -16,13 +16,19 @@ const COLOURS: [(&str, [&str; 2]); 17] = [
     ("c3", ["#7a3fa0", "#d1a3f0"]),
     ("c4", ["#806000", "#e6c65c"]),
     ("c5", ["#0f6f78", "#6fd3dc"]),
+    ("c6", ["#a8186a", "#ff9ad0"]),
+    ("c7", ["#566300", "#c3d04a"]),
+    ("c8", ["#10316b", "#b9d4ff"]),
+    ("c9", ["#5e2b0c", "#ffd0b0"]),
+    ("c10", ["#0c3d1e", "#c4f3d2"]),
+    ("c11", ["#4a4458", "#d6d0e4"]),
     ("focus", ["#0b5cad", "#7ab8ff"]),
     ("bad", ["#a40e26", "#ff8d9b"]),
     ("halo", ["#ffffffcc", "#14171bcc"]),
 ];
 
-/// How many colours forces, curves and modes take in turn: c0, c1, …
-pub(crate) const TURN: usize = 6;
+/// How many colours forces, curves and modes take in turn: c0, c1, … The second six are darker on light pages, and lighter on dark ones.
+pub(crate) const TURN: usize = 12;
 
 /// The look of pictures, in terms of the names.
 const PICTURE: &str = include_str!("picture.css");
@@ -88,7 +94,9 @@ mod tests {
     fn text_and_curves_stand_out() {
         let find = |name: &str| COLOURS.iter().find(|(n, _)| *n == name).expect("a name").1;
         for shade in [0, 1] {
-            for text in ["ink", "quiet", "bad", "c0", "c1", "c2", "c3", "c4", "c5"] {
+            let turn: Vec<String> = (0..TURN).map(|i| format!("c{i}")).collect();
+            let turn = turn.iter().map(String::as_str);
+            for text in ["ink", "quiet", "bad"].into_iter().chain(turn) {
                 for ground in ["page", "card", "ground", "body"] {
                     let [a, b] = [text, ground].map(|name| luminance(find(name)[shade]) + 0.05);
                     let least = if ["page", "card"].contains(&ground) {
@@ -104,6 +112,8 @@ mod tests {
                 }
             }
         }
+        let turn: std::collections::BTreeSet<&str> = (0..TURN).map(colour).collect();
+        assert_eq!(turn.len(), TURN);
         assert!(!for_pictures().contains("var("));
         assert_eq!(shaded("page", 0.5), "#808080");
     }

@@ -8,13 +8,14 @@
 //!   1 rim closed, grip sticks   2 rim closed, grip slips   3 rim open
 //! ```
 
+mod axis;
 mod curves;
 mod panel;
 
 use crate::outcome::Outcome;
 use crate::quantity::{Quantity, Show};
 use curves::{Bands, bands, shown, usual};
-use panel::Frame;
+use panel::{Frame, Ready};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -33,6 +34,8 @@ const PANEL: u32 = 210 * FINE;
 /// A panel over something else than time.
 const PORTRAIT: u32 = 420 * FINE;
 const AXIS: u32 = 46 * FINE;
+/// Room left of the panels, at least.
+const BESIDE: u32 = 58 * FINE;
 /// Room around the key at the foot.
 const FOOT: u32 = 18 * FINE;
 const KEY_LINE: u32 = 20 * FINE;
@@ -57,14 +60,20 @@ pub(super) const COLOURS: [RGBColor; 7] = [
     RGBColor(60, 60, 60),
 ];
 
-/// Tints of the modes.
-const TINTS: [RGBColor; 6] = [
+/// Tints of the modes: six, and the same darker.
+const TINTS: [RGBColor; 12] = [
     RGBColor(226, 238, 248),
     RGBColor(252, 233, 216),
     RGBColor(229, 243, 232),
     RGBColor(246, 231, 241),
     RGBColor(253, 245, 214),
     RGBColor(236, 236, 236),
+    RGBColor(200, 220, 239),
+    RGBColor(248, 214, 183),
+    RGBColor(202, 229, 208),
+    RGBColor(233, 203, 223),
+    RGBColor(245, 234, 180),
+    RGBColor(216, 216, 216),
 ];
 
 /// A run in a picture.
@@ -124,6 +133,11 @@ pub fn svg(runs: &[Run], shows: &[Show]) -> Result<String, String> {
     });
     let heights: Vec<u32> = heights.collect();
     let body: u32 = heights.iter().sum();
+    let ready = panels
+        .iter()
+        .map(|panel| Ready::new(panel, &outcomes, (first, last)));
+    let ready: Vec<Ready> = ready.collect();
+    let beside = ready.iter().map(Ready::beside).fold(BESIDE, u32::max);
     draw_in(TITLE + body + key, |root| {
         let (title, rest) = root.split_vertically(TITLE);
         let heading = words(17, &BLACK, HPos::Left, VPos::Center);
@@ -133,12 +147,12 @@ pub fn svg(runs: &[Run], shows: &[Show]) -> Result<String, String> {
             (MARGIN as i32, TITLE as i32 / 2),
         )?;
         let (mut rest, foot) = rest.split_vertically(body);
-        for (index, (panel, height)) in panels.iter().zip(&heights).enumerate() {
+        for (index, (panel, height)) in ready.iter().zip(&heights).enumerate() {
             let (area, below) = rest.split_vertically(*height);
             rest = below;
             let frame = Frame {
                 outcomes: &outcomes,
-                times: (first, last),
+                beside,
                 bands: &bands,
                 top: index == 0,
                 bottom: alone(index),

@@ -1,5 +1,6 @@
 //! One panel of curves over shaded bands, and the key of the modes.
 
+use super::axis::Axis;
 use super::curves::{Bands, Curve, DASHES, Panel, pieces, with_comma};
 use super::{
     Area, COLOURS, Drawn, FINE, KEY_LINE, LETTER, MARGIN, MOST_NAMES, NAME_LINE, NAMES, TINTS,
@@ -13,8 +14,8 @@ use plotters::style::text_anchor::{HPos, VPos};
 /// What all panels of a picture share.
 pub(super) struct Frame<'b> {
     pub outcomes: &'b [&'b Outcome],
-    /// First and last time, s.
-    pub times: (f64, f64),
+    /// Room left of all panels.
+    pub beside: u32,
     pub bands: &'b Bands,
     /// Whether it carries the numbers of the modes.
     pub top: bool,
@@ -38,42 +39,69 @@ fn look(curve: &Curve, order: usize, several: bool) -> (usize, usize) {
     }
 }
 
-pub(super) fn draw<'a>(area: &Area<'a>, panel: &Panel, frame: &Frame) -> Drawn<'a> {
+/// A panel with its curves as points, and its axes.
+pub(super) struct Ready<'p> {
+    panel: &'p Panel,
+    lines: Vec<Line<'p>>,
+    x: Axis,
+    y: Axis,
+}
+
+/// Numbers on the axis from left to right, and on the one upwards, about.
+const ACROSS: usize = 10;
+const UPWARD: usize = 8;
+
+impl<'p> Ready<'p> {
+    pub fn new(panel: &'p Panel, outcomes: &[&Outcome], (first, last): (f64, f64)) -> Self {
+        let of_one = |curve: &'p Curve| {
+            let runs = outcomes.iter().enumerate();
+            runs.map(move |(run, outcome)| Line {
+                curve,
+                run,
+                pieces: pieces(outcome, &panel.over, &curve.quantity),
+            })
+        };
+        let mut lines: Vec<Line> = panel.curves.iter().flat_map(of_one).collect();
+        let points = || lines.iter().flat_map(|line| line.pieces.iter().flatten());
+        let y = Axis::around(points().map(|(_, y)| *y), 2.0);
+        let x = match panel.over == Quantity::Time {
+            true => Axis::between(first, last),
+            false => Axis::around(points().map(|(x, _)| *x), 1.0),
+        };
+        for point in lines
+            .iter_mut()
+            .flat_map(|line| line.pieces.iter_mut().flatten())
+        {
+            *point = (x.at(point.0), y.at(point.1));
+        }
+        Self { panel, lines, x, y }
+    }
+
+    /// Room for the numbers left of it and what they are.
+    pub fn beside(&self) -> u32 {
+        (22 + 8 * self.y.letters(UPWARD) as u32) * FINE
+    }
+}
+
+pub(super) fn draw<'a>(area: &Area<'a>, ready: &Ready, frame: &Frame) -> Drawn<'a> {
+    let Ready { panel, lines, x, y } = ready;
     let d = frame.outcomes[0].description;
     let over_time = panel.over == Quantity::Time;
-    let lines = || {
-        let curves = panel.curves.iter();
-        curves.flat_map(|curve| {
-            frame
-                .outcomes
-                .iter()
-                .enumerate()
-                .map(move |(run, outcome)| Line {
-                    curve,
-                    run,
-                    pieces: pieces(outcome, &panel.over, &curve.quantity),
-                })
-        })
-    };
-    let lines: Vec<Line> = lines().collect();
-    let points = || lines.iter().flat_map(|line| line.pieces.iter().flatten());
-    let (low, high) = range(points().map(|(_, y)| *y), 2.0);
-    let (left, right) = match over_time {
-        true => frame.times,
-        false => range(points().map(|(x, _)| *x), 1.0),
-    };
-    let across = with_comma(&panel.over.name(d), &panel.over.unit(d));
+    let mut across = with_comma(&panel.over.name(d), &panel.over.unit(d));
+    if let Some(origin) = x.origin() {
+        across = format!("{across}, {origin}");
+    }
     let mut chart = ChartBuilder::on(area)
         .margin_left(px(8))
         .margin_top(px(6))
         .margin_bottom(if frame.bottom { 0 } else { px(8) })
         .margin_right(NAMES)
-        .set_label_area_size(LabelAreaPosition::Left, px(58))
+        .set_label_area_size(LabelAreaPosition::Left, frame.beside)
         .set_label_area_size(
             LabelAreaPosition::Bottom,
             if frame.bottom { px(42) } else { 0 },
         )
-        .build_cartesian_2d(left..right, low..high)?;
+        .build_cartesian_2d(x.low..x.high, y.low..y.high)?;
     let no_bands: &[(f64, f64, usize)] = &[];
     let spans = if over_time {
         &frame.bands.spans
@@ -82,7 +110,7 @@ pub(super) fn draw<'a>(area: &Area<'a>, panel: &Panel, frame: &Frame) -> Drawn<'
     };
     chart.draw_series(spans.iter().map(|&(from, to, mode)| {
         Rectangle::new(
-            [(from, low), (to, high)],
+            [(x.at(from), y.low), (x.at(to), y.high)],
             TINTS[mode % TINTS.len()].filled(),
         )
     }))?;
@@ -94,10 +122,10 @@ pub(super) fn draw<'a>(area: &Area<'a>, panel: &Panel, frame: &Frame) -> Drawn<'
         .bold_line_style(BLACK.mix(0.10).stroke_width(FINE))
         .axis_style(BLACK.stroke_width(FINE))
         .set_all_tick_mark_size(px(5))
-        .x_labels(if frame.bottom { 10 } else { 0 })
-        .y_labels(8)
-        .x_label_formatter(&|x| label(*x, right - left))
-        .y_label_formatter(&|y| label(*y, high - low))
+        .x_labels(if frame.bottom { ACROSS } else { 0 })
+        .y_labels(UPWARD)
+        .x_label_formatter(&|number| x.label(*number))
+        .y_label_formatter(&|number| y.label(*number))
         .x_desc(if frame.bottom { across.as_str() } else { "" })
         .y_desc(panel.title.as_str())
         .axis_desc_style(("sans-serif", 14 * FINE))
@@ -120,14 +148,19 @@ pub(super) fn draw<'a>(area: &Area<'a>, panel: &Panel, frame: &Frame) -> Drawn<'
     }
     if frame.top {
         let style = words(13, &BLACK.mix(0.6), HPos::Center, VPos::Top);
-        let wide = |&&(from, to, _): &&(f64, f64, usize)| to - from > 0.015 * (right - left);
+        let wide = |&&(from, to, _): &&(f64, f64, usize)| to - from > 0.015 * x.length();
         chart.draw_series(spans.iter().filter(wide).map(|&(from, to, mode)| {
             Text::new(
                 (mode + 1).to_string(),
-                (0.5 * (from + to), high),
+                (x.at(0.5 * (from + to)), y.high),
                 style.clone(),
             )
         }))?;
+    }
+    if let Some(origin) = y.origin() {
+        let style = words(13, &BLACK.mix(0.6), HPos::Left, VPos::Top);
+        let corner = (x.low + 0.006 * x.length(), y.high);
+        chart.draw_series([Text::new(origin, corner, style)])?;
     }
     draw_names(area, panel, frame)
 }
@@ -219,69 +252,13 @@ pub(super) fn draw_key<'a>(
     Ok(())
 }
 
-/// What values differ by less than this part of their size is rounding, and they are constant on paper.
-const CONSTANT: f64 = 1e-11;
-
-/// Around all values, with `above` times as much room above as below: a constant curve gets room, too.
-fn range(values: impl Iterator<Item = f64>, above: f64) -> (f64, f64) {
-    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-        (value.min(low), value.max(high))
-    });
-    if low > high {
-        return (0.0, 1.0);
-    }
-    let size = high.abs().max(low.abs());
-    let room = match high - low > CONSTANT * size {
-        true => 0.08 * (high - low),
-        false if size == 0.0 => 0.1,
-        false => 0.1 * size,
-    };
-    (low - room, high + above * room)
-}
-
-/// A number on an axis of a length, without the digits that rounding adds.
-fn label(value: f64, length: f64) -> String {
-    if value.abs() < 1e-9 * length {
-        return "0".to_owned();
-    }
-    let text = match (1e-5..1e7).contains(&value.abs()) {
-        true => format!("{value:.9}"),
-        false => format!("{value:.9e}"),
-    };
-    let (digits, power) = text.split_at(text.find('e').unwrap_or(text.len()));
-    format!(
-        "{}{power}",
-        digits.trim_end_matches('0').trim_end_matches('.')
-    )
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{LETTER, fitted, label, range};
+    use super::{LETTER, fitted};
 
     #[test]
     fn long_names_lose_their_middle() {
         assert_eq!(fitted("|grip|", 8 * LETTER), "|grip|");
         assert_eq!(fitted("friction of the left θ", 9 * LETTER), "fric…ft θ");
-    }
-
-    /// A force of a given size is that size to rounding: noise would fill the panel.
-    #[test]
-    fn what_rounding_alone_changes_is_constant() {
-        let force = 0.016_677;
-        let (low, high) = range([force, force * (1.0 + 1e-15)].into_iter(), 2.0);
-        assert!(low < 0.95 * force && high > 1.05 * force, "{low} {high}");
-        let (low, high) = range([1.0, 1.0 + 1e-9].into_iter(), 2.0);
-        assert!(high - low < 5e-9, "{low} {high}");
-        assert_eq!(range([0.0].into_iter(), 1.0), (-0.1, 0.1));
-    }
-
-    #[test]
-    fn numbers_of_axes_are_short() {
-        assert_eq!(label(0.1 + 0.2, 1.0), "0.3");
-        assert_eq!(label(-1e-17, 1.0), "0");
-        assert_eq!(label(-2e300, 5e300), "-2e300");
-        assert_eq!(label(5e-8, 1e-7), "5e-8");
-        assert_eq!(label(200.0, 1000.0), "200");
     }
 }

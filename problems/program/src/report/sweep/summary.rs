@@ -153,7 +153,7 @@ pub(super) fn told(observed: &Observation, number: f64) -> String {
     }
 }
 
-fn in_cycles(words: &[&str]) -> String {
+fn in_cycles<W: AsRef<str> + PartialEq>(words: &[W]) -> String {
     let mut told: Vec<String> = Vec::new();
     let mut rest = words;
     while !rest.is_empty() {
@@ -174,7 +174,8 @@ fn in_cycles(words: &[&str]) -> String {
             .rev()
             .max_by_key(|(length, times)| length * times)
             .unwrap_or((1, 1));
-        let cycle = rest[..length].join(" → ");
+        let cycle: Vec<&str> = rest[..length].iter().map(AsRef::as_ref).collect();
+        let cycle = cycle.join(" → ");
         told.push(if times > 1 {
             format!("({cycle}) × {times}")
         } else {

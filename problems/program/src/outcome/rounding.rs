@@ -1,0 +1,70 @@
+//! Forces that are rounding errors → 0: two balls that touch and fall together press on each other by 1e-16 of their weights, and a picture
+//! or a column of numbers would show that as large as any force.
+
+use super::{Outcome, Sample};
+
+/// What rounding leaves of a force, relative to the most that it ever holds in balance.
+const ROUNDING: f64 = 256.0 * f64::EPSILON;
+
+impl Outcome {
+    /// Takes them out, and what frictions can hold by them.
+    pub(super) fn take_out_rounding(&mut self) {
+        let rows = self.description.rows.len();
+        let mut least = vec![0.0_f64; rows];
+        let samples = [&mut self.samples, &mut self.curve];
+        let around = self.around.iter_mut().flatten().flatten();
+        let mut samples: Vec<&mut Sample> = samples.into_iter().flatten().chain(around).collect();
+        for sample in &samples {
+            for (least, held) in least.iter_mut().zip(&sample.held) {
+                *least = least.max(ROUNDING * held);
+            }
+        }
+        let clean = |forces: &mut [f64]| {
+            for (force, least) in forces.iter_mut().zip(&least) {
+                if force.abs() < *least {
+                    *force = 0.0;
+                }
+            }
+        };
+        for sample in &mut samples {
+            clean(&mut sample.forces);
+            let limits = sample.limits.iter_mut().zip(self.description.frictions);
+            for (limit, friction) in limits {
+                *limit = limit.map(|limit| match limit.abs() < least[friction.row] {
+                    true => 0.0,
+                    false => limit,
+                });
+            }
+        }
+        for event in &mut self.events {
+            clean(&mut event.forces);
+            clean(&mut event.forces_after);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::file;
+    use crate::request::Request;
+
+    /// Balls of 2 kg and 1 kg that touch fall 1.1 m, where they press on each other by nothing, and then lie on one another.
+    #[test]
+    fn what_falls_together_does_not_press_on_each_other() {
+        let declared = "parameters(m: \"kg\" = 2, n: \"kg\" = 1, g: \"m/s^2\" = 9.81, r: \"m\" = 0.1), coordinates(y: \"m\", z: \"m\"),
+            kinetic = m/2*der(y)^2 + n/2*der(z)^2, potential = m*g*y + n*g*z, contact(floor: y >= r), contact(pair: z - y >= 2*r),
+            start(above: y = 1.2, z = 1.4), until = 1";
+        let scene = file::scene("pair.lagrange", declared).expect("a declaration");
+        let outcome = scene
+            .run(&Request {
+                samples: 20,
+                ..Request::default()
+            })
+            .expect("a run");
+        for (lies, force) in [(false, 0.0), (true, 9.81)] {
+            let samples = outcome.samples.iter();
+            let mut samples = samples.filter(|sample| sample.mode.contacts[0] == lies);
+            assert!(samples.all(|sample| (sample.forces[1] - force).abs() <= 1e-13 * force));
+        }
+    }
+}
