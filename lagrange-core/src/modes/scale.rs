@@ -22,8 +22,8 @@ pub struct Sizes {
     mobility: Vec<f64>,
     /// √D of the forcing, m/s² times √kg: squares of forces of 1e160 N are no numbers.
     forced: f64,
-    /// √D of the forcing and of the rows that act.
-    drive: f64,
+    /// √D of the forcing and of the rows that act; or more: loads that cancel do not make forces small that they are shared among.
+    pub drive: f64,
 }
 
 impl Sizes {
@@ -43,11 +43,6 @@ impl Sizes {
         let forced = forcing.map(|(m, &f)| m.sqrt() * number(f));
         self.forced = forced.fold(0.0, f64::hypot);
         self.take_rows(dynamics);
-    }
-
-    /// What drives, √kg times m/s². It may be taken for more: loads that cancel do not make forces small that they are shared among.
-    pub fn drive(&mut self) -> &mut f64 {
-        &mut self.drive
     }
 
     /// Takes the rows that act from the last value, in another mode at the same state: a friction that slips drives nothing, and where its

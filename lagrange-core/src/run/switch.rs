@@ -276,7 +276,7 @@ impl<T: Scalar> Run<T> {
         let arrives = facts.arriving.contains(&true);
         let hit = arrives && self.hit(facts)?;
         if hit {
-            self.rest_where_impact_leaves_nothing(facts);
+            self.rest_where_impact_leaves_nothing(facts)?;
             self.take_sides_after_impact(facts);
         }
         let leaves_an_edge = |guard: &Guard| matches!(guard, Guard::Region(_));
@@ -521,6 +521,27 @@ impl<T: Scalar> Run<T> {
         if self.locator.fallen.iter().any(comes) {
             ending.extend((0..facts.resting.len()).filter(slips));
         }
+        self.rest_among(ending, facts)
+    }
+
+    /// A slip after an impact may be the error of rows that hold on: of a box that lands in the corner of a floor and a wall that move together.
+    fn rest_where_impact_leaves_nothing(&mut self, facts: &mut SwitchFacts) -> Result<(), Error> {
+        let d = self.description();
+        let rubs = |f: &usize| {
+            d.frictions[*f].normal.presses(|c| facts.touching[c])
+                && !facts.resting[*f]
+                && self.dynamics.effects().includes(d, Item::Friction(*f))
+        };
+        let mut ending = core::mem::take(&mut self.switcher.ending);
+        ending.clear();
+        if facts.touching.contains(&true) {
+            ending.extend((0..d.frictions.len()).filter(rubs));
+        }
+        self.rest_among(ending, facts)
+    }
+
+    /// Which of these slips are the errors of rows, and rest.
+    fn rest_among(&mut self, mut ending: Vec<usize>, facts: &mut SwitchFacts) -> Result<(), Error> {
         if !ending.is_empty() {
             self.evaluate_all_rows()?;
         }
@@ -535,30 +556,13 @@ impl<T: Scalar> Run<T> {
         Ok(())
     }
 
-    /// A slip after an impact may be the error of rows that hold on: of a box that lands in the corner of a floor and a wall that move together.
-    fn rest_where_impact_leaves_nothing(&mut self, facts: &mut SwitchFacts) {
-        let d = self.description();
-        let outcome = &self.switcher.collider.outcome;
-        let is_error = |f: &usize| {
-            d.frictions[*f].normal.presses(|c| facts.touching[c])
-                && !facts.resting[*f]
-                && outcome.slips[*f] <= self.settings.tolerance
-        };
-        let mut ending = core::mem::take(&mut self.switcher.ending);
-        ending.clear();
-        ending.extend((0..d.frictions.len()).filter(is_error));
-        if !ending.is_empty() {
-            self.rest_if_nothing_is_left(&ending, facts);
-        }
-        self.switcher.ending = ending;
-    }
-
     /// Which of these slips vanish once all that rests sticks, and what touches stays closed.
     fn rest_if_nothing_is_left(&mut self, ending: &[usize], facts: &mut SwitchFacts) {
         self.switcher.before_holding.clone_from(&self.now.state);
         let mode = &mut self.switcher.scratch_mode;
         mode.clone_from(&self.now.mode);
         mode.contacts.copy_from_slice(&facts.touching);
+        mode.release_sticking();
         for (friction, resting) in mode.frictions.iter_mut().zip(&facts.resting) {
             if *resting {
                 *friction = FrictionMode::Stick;

@@ -82,9 +82,8 @@ impl<T: Scalar> RedundantForces<T> {
         self.least = dynamics.least_norm_of_acting();
         dynamics.complete_outputs();
         self.sizes.take(dynamics);
-        let drive = self.sizes.drive();
-        self.strongest = self.strongest.max(*drive);
-        *drive = self.strongest;
+        self.strongest = self.strongest.max(self.sizes.drive);
+        self.sizes.drive = self.strongest;
         true
     }
 
@@ -192,7 +191,7 @@ impl<T: Scalar> RedundantForces<T> {
     pub fn raised(&mut self, dynamics: &mut Dynamics<T>) -> f64 {
         dynamics.complete_outputs();
         self.sizes.take(dynamics);
-        self.strongest / *self.sizes.drive()
+        self.strongest / self.sizes.drive
     }
 
     /// The composite guard that forbids the mode, or comes nearer to that than `margin` (relative): of all the smallest.
