@@ -359,6 +359,26 @@ fn operations(declaration: &Declaration) -> Vec<Operation> {
     words.map(operation).collect()
 }
 
+/// The bases of the roots, with an exponent of a half and whole numbers, that velocities or the time are in: those that a motion may take through
+/// zero, as it takes |v| of a body that turns back.
+pub fn roots(declaration: &Declaration, wanted: impl IntoIterator<Item = usize>) -> Vec<usize> {
+    let all = operations(declaration);
+    let acting = needed(&all, wanted);
+    let is_root = |o: &&Operation| {
+        let halves = || 2.0 * declaration.numbers[o.y];
+        acting[o.value] && o.code == op::POWER && halves().rem_euclid(2.0) == 1.0
+    };
+    let turns = |base: &usize| {
+        let parts = needed(&all, [*base]);
+        let mut parts = all.iter().filter(|o| parts[o.value]);
+        parts.any(|o| matches!(o.code, op::DERIVATIVE | op::TIME))
+    };
+    let mut bases: Vec<usize> = all.iter().filter(is_root).map(|o| o.x).collect();
+    bases.dedup();
+    bases.retain(turns);
+    bases
+}
+
 /// Per value: whether one of the wanted is made of it.
 fn needed(all: &[Operation], wanted: impl IntoIterator<Item = usize>) -> Vec<bool> {
     let mut needed = vec![false; all.len()];

@@ -16,7 +16,7 @@ mod tests;
 
 pub use draw::{Draw, Form, Turn};
 pub use evaluate::{
-    Evaluator, Gradient, Inputs, Seed, Sum, angles, exponentials, exponents, may_jump,
+    Evaluator, Gradient, Inputs, Seed, Sum, angles, exponentials, exponents, may_jump, roots,
 };
 pub use interval::Interval;
 pub use real::Real;

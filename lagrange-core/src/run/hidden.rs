@@ -7,10 +7,13 @@
 //!
 //! An angle `atan2` that passes its cut jumps by 2π, which its series does not know. Where it has come back at the end of a step nothing there
 //! tells of it: the step ends beyond the cut instead, where accelerations show that they have jumped.
+//!
+//! A root √x², as |v| of a body that turns back, goes on as −x in its series. Where x passes zero twice nothing tells of it at the end of the step:
+//! the step ends between the zeros.
 
 use crate::arithmetic::Scalar;
 use crate::declaration::{
-    self, Declaration, Evaluator, Inputs, Worked, angles, exponentials, exponents,
+    self, Declaration, Evaluator, Inputs, Worked, angles, exponentials, exponents, roots,
 };
 use crate::effects::{Effects, Item};
 use crate::integrate::StepPolynomial;
@@ -27,6 +30,11 @@ const RISE: f64 = 0.5;
 /// Equations of motion, and their series, contain what is declared to powers of about this.
 const RAISED: i32 = 8;
 
+/// The slopes of a root at both ends of a piece lead to one zero if the places differ by no more than this part of the piece,
+const ONE_ZERO: f64 = 0.25;
+/// and to two if the second is later by this.
+const TWO_ZEROS: f64 = 0.05;
+
 /// A step is looked at in so many pieces.
 const PIECES: usize = 8;
 
@@ -36,9 +44,10 @@ pub(super) struct Hidden {
     evaluator: Evaluator,
     exponents: Vec<Exponent>,
     angles: Vec<Angle>,
+    roots: Vec<Root>,
     q: Vec<f64>,
     v: Vec<f64>,
-    still: Vec<f64>,
+    acceleration: Vec<f64>,
 }
 
 /// The argument of exp, sinh, cosh or tanh.
@@ -65,6 +74,16 @@ struct Angle {
     beyond: Option<f64>,
 }
 
+/// A root.
+#[derive(Debug)]
+struct Root {
+    base: usize,
+    /// The root and its change over a piece, at the beginning of the piece.
+    before: Ends,
+    /// Where the piece ends that it first has a corner in, as a part of the step.
+    corner: Option<f64>,
+}
+
 /// A value, and its change over a piece.
 type Ends = [f64; 2];
 
@@ -74,15 +93,17 @@ impl Hidden {
         let (d, declaration) = (system.description(), system.declaration());
         let mut arguments = exponents(declaration, acting(d, declaration, effects));
         let mut values = angles(declaration, acting(d, declaration, effects));
-        if arguments.is_empty() && values.is_empty() {
+        let mut bases = roots(declaration, acting(d, declaration, effects));
+        if arguments.is_empty() && values.is_empty() && bases.is_empty() {
             return None;
         }
         let wanted = arguments.iter().map(|&(argument, _)| argument);
-        let wanted = wanted.chain(values.iter().copied());
+        let wanted = wanted.chain(values.iter().chain(&bases).copied());
         let evaluator = Evaluator::new(declaration, &system.parameters(), wanted);
         let follows = |value: usize| evaluator.moves(value) && !evaluator.is_of_forces(value);
         arguments.retain(|&(argument, _)| follows(argument));
         values.retain(|&value| follows(value));
+        bases.retain(|&base| follows(base));
         let exponents = arguments.iter().map(|&(argument, factor)| Exponent {
             argument,
             factor,
@@ -95,16 +116,24 @@ impl Hidden {
             jumps: 0.0,
             beyond: None,
         });
+        let roots = bases.iter().map(|&base| Root {
+            base,
+            before: [0.0; 2],
+            corner: None,
+        });
         let n = d.coordinates.len();
         let hidden = Self {
             exponents: exponents.collect(),
             angles: angles.collect(),
+            roots: roots.collect(),
             evaluator,
             q: vec![0.0; n],
             v: vec![0.0; n],
-            still: vec![0.0; n],
+            acceleration: vec![0.0; n],
         };
-        (!hidden.exponents.is_empty() || !hidden.angles.is_empty()).then_some(hidden)
+        let is_empty =
+            hidden.exponents.is_empty() && hidden.angles.is_empty() && hidden.roots.is_empty();
+        (!is_empty).then_some(hidden)
     }
 
     /// The part of a step, up to `end` of it, that hides nothing from a method of this order: `end`, or less.
@@ -130,6 +159,10 @@ impl Hidden {
             angle.before = ends(&self.evaluator, angle.value);
             (angle.jumps, angle.beyond) = (0.0, None);
         }
+        for root in &mut self.roots {
+            root.before = of_root(ends(&self.evaluator, root.base));
+            root.corner = None;
+        }
         for n in 1..=PIECES {
             self.look(step, n as f64 * piece);
             for exponent in &mut self.exponents {
@@ -148,6 +181,21 @@ impl Hidden {
                 }
                 angle.before = after;
             }
+            for root in &mut self.roots {
+                let after = of_root(ends(&self.evaluator, root.base));
+                let dip = dips(root.before, after);
+                root.before = after;
+                let Some([falls, rises]) = dip else {
+                    continue;
+                };
+                if rises > falls + TWO_ZEROS {
+                    return ((n - 1) as f64 + 0.5 * (falls + rises)) * piece;
+                }
+                if let Some(corner) = root.corner {
+                    return corner;
+                }
+                root.corner = Some(n as f64 * piece);
+            }
         }
         let back = self.angles.iter().filter(|angle| angle.jumps == 0.0);
         let beyond = back.filter_map(|angle| angle.beyond);
@@ -159,12 +207,13 @@ impl Hidden {
         for i in 0..self.q.len() {
             self.q[i] = step.position(i, s).value();
             self.v[i] = step.velocity(i, s).value();
+            self.acceleration[i] = step.acceleration(i, s).value();
         }
         self.evaluator.evaluate(Inputs {
             time: step.time(s).value(),
             q: &self.q,
             v: &self.v,
-            acceleration: &self.still,
+            acceleration: &self.acceleration,
             forces: &[],
             loads: &[],
         });
@@ -215,6 +264,20 @@ fn least_size(before: Ends, after: Ends) -> f64 {
         true => 0.0,
         false => least.min(z.abs()),
     })
+}
+
+/// A root and its change, by those of what is under it.
+fn of_root([base, change]: Ends) -> Ends {
+    let root = base.max(0.0).sqrt();
+    [root, change / (2.0 * root)]
+}
+
+/// Where a root that falls at the beginning of a piece, and rises at its end, would vanish by either slope, as parts of the piece. Where it
+/// passes zero the two agree; of two zeros the first comes first, and of a curve that only passes near to zero the last.
+fn dips([first, falls]: Ends, [last, rises]: Ends) -> Option<[f64; 2]> {
+    let (from, to) = (-first / falls, 1.0 - last / rises);
+    let inside = falls < 0.0 && rises > 0.0 && from < 1.0 && to > 0.0;
+    (inside && from <= to + ONE_ZERO).then_some([from, to])
 }
 
 /// Where an angle is beyond its cut in a piece, and how often it has jumped up there: once, or −1 times, or not where it has come back.
@@ -291,7 +354,7 @@ fn acting(d: &Description, declaration: &Declaration, effects: &Effects) -> Vec<
 
 #[cfg(test)]
 mod tests {
-    use super::{PI, TAU, least_size, passes_cut};
+    use super::{PI, TAU, dips, least_size, passes_cut};
 
     #[test]
     fn angles_pass_their_cut_at_an_end_of_a_piece_or_in_between() {
@@ -318,5 +381,22 @@ mod tests {
         // 1 + s − s³/4 rises and is least at its beginning.
         assert_eq!(least_size([1.0, 1.0], [1.75, 0.25]), 1.0);
         assert_eq!(least_size([3.0, 0.0], [3.0, 0.0]), 3.0);
+    }
+
+    #[test]
+    fn zeros_of_a_root_are_told_from_curves_that_pass_near() {
+        // |s − 0.3|, |(s − ½)² − 0.04|, √((s − ½)² + 0.09), and what falls all the way.
+        let close = |found: Option<[f64; 2]>, expected: [f64; 2]| {
+            let found = found.expect("a dip");
+            found
+                .iter()
+                .zip(expected)
+                .all(|(a, b)| (a - b).abs() < 1e-12)
+        };
+        assert!(close(dips([0.3, -1.0], [0.7, 1.0]), [0.3, 0.3]));
+        assert!(close(dips([0.21, -1.0], [0.21, 1.0]), [0.21, 0.79]));
+        let near = 0.34_f64.sqrt();
+        assert_eq!(dips([near, -0.5 / near], [near, 0.5 / near]), None);
+        assert_eq!(dips([1.0, -0.5], [0.5, -0.5]), None);
     }
 }
