@@ -30,11 +30,6 @@ const RISE: f64 = 0.5;
 /// Equations of motion, and their series, contain what is declared to powers of about this.
 const RAISED: i32 = 8;
 
-/// The slopes of a root at both ends of a piece lead to one zero if the places differ by no more than this part of the piece,
-const ONE_ZERO: f64 = 0.25;
-/// and to two if the second is later by this.
-const TWO_ZEROS: f64 = 0.05;
-
 /// A step is looked at in so many pieces.
 const PIECES: usize = 8;
 
@@ -183,13 +178,13 @@ impl Hidden {
             }
             for root in &mut self.roots {
                 let after = of_root(ends(&self.evaluator, root.base));
-                let dip = dips(root.before, after);
-                root.before = after;
-                let Some([falls, rises]) = dip else {
+                let before = core::mem::replace(&mut root.before, after);
+                if !passes_zero(before, after) {
+                    let mut dips = extremes(before, after).filter(|&(_, root)| root < 0.0);
+                    if let Some((between, _)) = dips.next() {
+                        return ((n - 1) as f64 + between) * piece;
+                    }
                     continue;
-                };
-                if rises > falls + TWO_ZEROS {
-                    return ((n - 1) as f64 + 0.5 * (falls + rises)) * piece;
                 }
                 if let Some(corner) = root.corner {
                     return corner;
@@ -272,12 +267,14 @@ fn of_root([base, change]: Ends) -> Ends {
     [root, change / (2.0 * root)]
 }
 
-/// Where a root that falls at the beginning of a piece, and rises at its end, would vanish by either slope, as parts of the piece. Where it
-/// passes zero the two agree; of two zeros the first comes first, and of a curve that only passes near to zero the last.
-fn dips([first, falls]: Ends, [last, rises]: Ends) -> Option<[f64; 2]> {
-    let (from, to) = (-first / falls, 1.0 - last / rises);
-    let inside = falls < 0.0 && rises > 0.0 && from < 1.0 && to > 0.0;
-    (inside && from <= to + ONE_ZERO).then_some([from, to])
+/// Whether a root with these values and changes at both ends of a piece goes on with the other sign: then the change is the mean of those at
+/// the ends.
+fn passes_zero(before: Ends, after: Ends) -> bool {
+    let misfit = |sign: f64| {
+        let grows = 0.5 * (before[1] + sign * after[1]);
+        (sign * after[0] - before[0] - grows).abs()
+    };
+    misfit(-1.0) < misfit(1.0)
 }
 
 /// Where an angle is beyond its cut in a piece, and how often it has jumped up there: once, or −1 times, or not where it has come back.
@@ -354,7 +351,7 @@ fn acting(d: &Description, declaration: &Declaration, effects: &Effects) -> Vec<
 
 #[cfg(test)]
 mod tests {
-    use super::{PI, TAU, dips, least_size, passes_cut};
+    use super::{PI, TAU, extremes, least_size, passes_cut, passes_zero};
 
     #[test]
     fn angles_pass_their_cut_at_an_end_of_a_piece_or_in_between() {
@@ -385,18 +382,18 @@ mod tests {
 
     #[test]
     fn zeros_of_a_root_are_told_from_curves_that_pass_near() {
-        // |s − 0.3|, |(s − ½)² − 0.04|, √((s − ½)² + 0.09), and what falls all the way.
-        let close = |found: Option<[f64; 2]>, expected: [f64; 2]| {
-            let found = found.expect("a dip");
-            found
-                .iter()
-                .zip(expected)
-                .all(|(a, b)| (a - b).abs() < 1e-12)
-        };
-        assert!(close(dips([0.3, -1.0], [0.7, 1.0]), [0.3, 0.3]));
-        assert!(close(dips([0.21, -1.0], [0.21, 1.0]), [0.21, 0.79]));
+        // |s − 0.3|, |(s − 0.3)(s − 2)|, and what falls without passing zero.
+        assert!(passes_zero([0.3, -1.0], [0.7, 1.0]));
+        assert!(passes_zero([0.6, -2.3], [0.7, 0.3]));
+        assert!(!passes_zero([1.0, -0.5], [0.5, -0.5]));
+        // √((s − ½)² + 0.09), and (s − ½)² − 0.04, which is negative between its zeros.
         let near = 0.34_f64.sqrt();
-        assert_eq!(dips([near, -0.5 / near], [near, 0.5 / near]), None);
-        assert_eq!(dips([1.0, -0.5], [0.5, -0.5]), None);
+        let ends = ([near, -0.5 / near], [near, 0.5 / near]);
+        assert!(!passes_zero(ends.0, ends.1));
+        assert!(extremes(ends.0, ends.1).all(|(_, root)| root > 0.0));
+        let dip = ([0.21, -1.0], [0.21, 1.0]);
+        assert!(!passes_zero(dip.0, dip.1));
+        let least = extremes(dip.0, dip.1).find(|(_, root)| *root < 0.0);
+        assert!(least.is_some_and(|(place, _)| (place - 0.5).abs() < 1e-12));
     }
 }
