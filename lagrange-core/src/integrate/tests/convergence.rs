@@ -29,7 +29,8 @@ fn errors<P: Problem>(
         let accepted = stepper
             .step(&mut problem, t, &q, &v, h, ANYTHING, &mut step)
             .expect("no obstacle");
-        assert_eq!(accepted.h, h);
+        // A step is what time advances by.
+        assert!((accepted.h - h).abs() <= f64::EPSILON * until);
         for &s in dense {
             let mut inside = (q.clone(), v.clone());
             step.state_into(s, &mut inside.0, &mut inside.1);
