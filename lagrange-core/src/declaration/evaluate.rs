@@ -359,6 +359,13 @@ fn operations(declaration: &Declaration) -> Vec<Operation> {
     words.map(operation).collect()
 }
 
+/// Whether the time is in some values.
+pub fn reads_time(declaration: &Declaration, wanted: impl IntoIterator<Item = usize>) -> bool {
+    let all = operations(declaration);
+    let needed = needed(&all, wanted);
+    all.iter().any(|o| needed[o.value] && o.code == op::TIME)
+}
+
 /// The bases of the roots, with an exponent of a half and whole numbers, that velocities or the time are in: those that a motion may take through
 /// zero, as it takes |v| of a body that turns back.
 pub fn roots(declaration: &Declaration, wanted: impl IntoIterator<Item = usize>) -> Vec<usize> {

@@ -221,6 +221,12 @@ pub(super) fn may_jump<T: Scalar>(system: &Erased<T>, effects: &Effects) -> bool
     declaration::may_jump(declaration, acting(d, declaration, effects))
 }
 
+/// Whether what acts is a function of time.
+pub(super) fn changes_with_time<T: Scalar>(system: &Erased<T>, effects: &Effects) -> bool {
+    let (d, declaration) = (system.description(), system.declaration());
+    declaration::reads_time(declaration, acting(d, declaration, effects))
+}
+
 /// Whether functions in what acts are so large at a state that powers of them are beyond all numbers.
 #[cold]
 pub(super) fn overflow<T: Scalar>(

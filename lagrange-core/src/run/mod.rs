@@ -25,6 +25,7 @@ mod sides;
 mod singular;
 mod stepping;
 mod stiffness;
+mod still;
 mod switch;
 
 use crate::arithmetic::{Scalar, epsilon};
@@ -85,6 +86,8 @@ pub(crate) struct Run<T: Scalar> {
     strengths_vary: bool,
     /// Whether accelerations may jump where no branch says so.
     may_jump: bool,
+    /// Whether what acts is a function of time.
+    changes_with_time: bool,
     /// Of what is declared, if a choice in it may change.
     lagrangian: Option<Lagrangian>,
     /// Watches for positions where constraints lose rank.
@@ -152,6 +155,7 @@ impl<T: Scalar> Run<T> {
             hidden: Hidden::new(&system, &settings.effects),
             strengths_vary: domain::strengths_vary(d),
             may_jump: hidden::may_jump(&system, &settings.effects),
+            changes_with_time: hidden::changes_with_time(&system, &settings.effects),
             lagrangian: Lagrangian::new(&system, &settings.effects),
             rank: Rank::new(d, &settings.effects),
             locator: Locator::new(d, settings, &mode),

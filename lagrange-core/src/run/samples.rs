@@ -55,12 +55,19 @@ impl<T: Scalar> Run<T> {
                 note(defect(&self.stepper.step, s, accelerations, tolerance));
             }
             if guarded {
-                let (curves, tolerance) = (&self.locator.polynomials, self.settings.tolerance);
-                let mode = &self.now.mode;
-                note(curves.interpolation_defect(&mut self.dynamics, mode, s, tolerance));
+                note(self.defect_of_interpolation(s));
             }
         }
+        if guarded && self.rests_under_load() {
+            worst = worse(worst, self.interpolation_defect_within()?);
+        }
         Ok(worst)
+    }
+
+    /// How far interpolated guards are off at part `s` of the step, which the dynamics have evaluated.
+    pub(super) fn defect_of_interpolation(&mut self, s: f64) -> f64 {
+        let (curves, tolerance) = (&self.locator.polynomials, self.settings.tolerance);
+        curves.interpolation_defect(&mut self.dynamics, &self.now.mode, s, tolerance)
     }
 
     /// By which factor a step with this defect may be longer, or has to be shorter.

@@ -159,6 +159,11 @@ impl<T: Scalar> Run<T> {
             true => MORE_EXACTLY * moves,
             false => moves,
         };
+        let rests = self.rests_under_load();
+        let longest = match rests {
+            true => longest.min(self.longest_at_rest()),
+            false => longest,
+        };
         let moves = moves.min(longest).min(self.longest_of_shared_loads(order));
         let mut h = self.stepper.guarded.map_or(moves, |h| h.min(moves));
         let mut guarded = h < moves;
@@ -223,6 +228,10 @@ impl<T: Scalar> Run<T> {
                     self.guard_defect(&hit, looked),
                 ),
                 Err(_) => (f64::INFINITY, f64::INFINITY),
+            };
+            let guards = match rests {
+                true => taylor::worse(guards, self.guard_defect_within(&hit, looked)),
+                false => guards,
             };
             // A step must not end where the constraints lose rank.
             let distance = self.rank.distance(&self.dynamics);
@@ -404,7 +413,7 @@ impl<T: Scalar> Run<T> {
     }
 
     /// The same of the guards.
-    fn guard_defect(&mut self, hit: &Hit, looked: f64) -> f64 {
+    pub(super) fn guard_defect(&mut self, hit: &Hit, looked: f64) -> f64 {
         let defect = self.guard_defect_beyond(0.0, hit, looked);
         if defect <= 1.0 {
             return defect;
@@ -541,6 +550,9 @@ impl<T: Scalar> Run<T> {
             return self.taylor_step();
         }
         let mut h = first.map_err(|e| self.no_step(e))?.min(longest);
+        if self.rests_under_load() {
+            h = h.min(self.longest_at_rest());
+        }
         if self.switcher.redundant.has_open() && self.expand().is_ok() {
             h = h.min(self.longest_of_shared_loads(self.stepper.order));
         }
