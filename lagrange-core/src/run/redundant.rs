@@ -43,7 +43,7 @@ impl<T: Scalar> Run<T> {
 
     /// How long a step may be for what is looked at within it to tell how undetermined forces change, by the series at hand: their guards do
     /// not bound it as long as none is near.
-    pub(super) fn longest_of_shared_loads(&self, order: usize) -> f64 {
+    pub(super) fn longest_of_shared_loads(&mut self, order: usize) -> f64 {
         if !self.switcher.redundant.has_open() {
             return f64::INFINITY;
         }
@@ -53,6 +53,10 @@ impl<T: Scalar> Run<T> {
                 *size = size.max(force.value().abs());
             }
         }
+        // Loads that are nothing now may be large again.
+        let redundant = &mut self.switcher.redundant;
+        redundant.largest = redundant.largest.max(sizes[0]);
+        sizes[0] = redundant.largest;
         let until = |last: usize| {
             let share = |first: usize| LAST_TERMS * sizes[first] / sizes[last];
             let times = (0..=last / 2).map(|first| share(first).powf(1.0 / (last - first) as f64));

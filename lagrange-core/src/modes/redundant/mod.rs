@@ -33,6 +33,8 @@ pub struct RedundantForces<T> {
     sizes: Sizes,
     /// What has driven most so far.
     strongest: f64,
+    /// The largest force so far.
+    pub largest: f64,
 }
 
 /// What rounding leaves of a bound, relative to its size.
@@ -48,7 +50,7 @@ impl<T: Scalar> RedundantForces<T> {
     /// Forgets what belongs to another motion.
     pub fn restart(&mut self) {
         self.clear();
-        self.strongest = 0.0;
+        (self.strongest, self.largest) = (0.0, 0.0);
     }
 
     /// Forgets everything: all forces are determined.
