@@ -255,3 +255,54 @@ fn a_bead_turns_on_a_curved_path() {
         }
     }
 }
+
+/// A bead on a wire whose speed falls below zero and comes back; and the same by its one speed.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    define(v = der([cos(x), sin(x)])),
+    kinetic = der(x)^2/2,
+    force(push: x = 2*(t - 1)),
+    force(air: -drag*norm(v)*v at [cos(x), sin(x)]),
+    start(runs: der(x) = 1 - dip),
+)]
+struct Bead {
+    drag: f64,
+    dip: f64,
+}
+
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2/2,
+    force(push: x = 2*(t - 1)),
+    force(air: x = -drag*abs(der(x))*der(x)),
+    start(runs: der(x) = 1 - dip),
+)]
+struct Speed {
+    drag: f64,
+    dip: f64,
+}
+
+/// Between the zeros the series of |v| has the wrong sign, and at the end of a step that reaches beyond both the right one.
+#[test]
+fn a_speed_that_passes_zero_twice_is_slowed_all_the_way() {
+    for (drag, dip) in [
+        (1e-3, 0.1),
+        (1e-3, 0.3),
+        (0.1, 0.1),
+        (0.1, 0.01),
+        (1.0, 0.3),
+    ] {
+        let speed = Speed { drag, dip };
+        let known = run_by(&speed, ("dop853", 1e-13), speed.at(Speed::RUNS), 3.0);
+        let bead = Bead { drag, dip };
+        for tolerance in [1e-6, 1e-9, 1e-12] {
+            let run = run_by(&bead, ("taylor", tolerance), bead.at(Bead::RUNS), 3.0);
+            let asked = format!("{drag} {dip} {tolerance:e}");
+            let [found, known] = [&run, &known].map(|run| run.final_state().q[0]);
+            agree(&asked, found, known, 100.0 * tolerance);
+            certified(asked, &run);
+        }
+    }
+}

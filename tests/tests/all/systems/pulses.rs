@@ -3,6 +3,7 @@
 use super::{PI, state};
 use lagrange_core::prelude::*;
 use lagrange_tests::fuzz::METHODS;
+use lagrange_tests::{agree, run_by, times};
 
 /// A motion in one coordinate from a position and a velocity.
 fn moved(
@@ -180,4 +181,52 @@ fn exponents_of_what_is_left_out_cost_no_steps() {
         1
     );
     assert!(steps(Simulation::new(&scene)) > 10);
+}
+
+/// A block that friction holds, under a load that comes and goes.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2/2,
+    force(shake: x = load * sin(rate*t)^20),
+    friction(rub: slip = der(x), limit = limit),
+)]
+struct Knocked {
+    load: f64,
+    rate: f64,
+    limit: f64,
+}
+
+/// Where it is zero the load has no series but zeros, and nothing moves that bounds a step.
+#[test]
+fn each_knock_moves_what_rests() {
+    let knocked = Knocked {
+        load: 10.1,
+        rate: 3.0,
+        limit: 9.81,
+    };
+    let first = (9.81_f64 / 10.1).powf(1.0 / 20.0).asin() / 3.0;
+    for (method, tolerance) in [
+        ("taylor", 1e-6),
+        ("taylor", 1e-9),
+        ("taylor", 1e-12),
+        ("dop853", 1e-9),
+        ("radau5", 1e-6),
+    ] {
+        for until in [3.0, 60.0, 200.0] {
+            let run = run_by(&knocked, (method, tolerance), state(&[0.0], &[0.0]), until);
+            let slips = times(&run, "rub", "slips");
+            let asked = format!("{method} {tolerance:e} {until}");
+            let pulses = ((until - first) * 3.0 / PI).floor() as usize + 1;
+            assert_eq!(slips.len(), pulses, "{asked}");
+            for (k, slips) in slips.iter().enumerate() {
+                agree(
+                    &asked,
+                    *slips,
+                    first + k as f64 * PI / 3.0,
+                    100.0 * tolerance,
+                );
+            }
+        }
+    }
 }
