@@ -4,7 +4,7 @@
 //! acceleration along it at most √(Σaⱼ²/mⱼ · D), and the multiplier that over the compliance: all independent of
 //! the units of the coordinates, and not small where the force along the row happens to cancel. What drives is
 //! D = Σfⱼ²/mⱼ + Σγᵢ²/(Σaᵢⱼ²/mⱼ): the forcing, and the rows i that act, of which a wall that is driven has γᵢ ≠ 0 where nothing
-//! else drives.
+//! else drives. Of a quaternion what would change its length is no part of a: in that direction a body has no inertia.
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
@@ -15,11 +15,18 @@ use crate::system::{Normal, ValueRef};
 /// A velocity below it counts as much: one that is zero is so only to rounding of its unit, as projections leave it.
 pub const AT_REST: f64 = 1e-2;
 
+/// Coordinates of an attitude.
+const QUATERNION: usize = 4;
+/// One of them has no inertia if it has less than this share of the largest.
+const NO_INERTIA: f64 = 1e-24;
+
 /// What all guards of a state share.
 #[derive(Clone, Debug, Default)]
 pub struct Sizes {
     /// 1/mⱼ, 0 where a coordinate has no inertia of its own.
     mobility: Vec<f64>,
+    /// The first coordinate of each quaternion, and the row that keeps its length.
+    quaternions: Vec<[usize; 2]>,
     /// √D of the forcing, m/s² times √kg: squares of forces of 1e160 N are no numbers.
     forced: f64,
     /// √D of the forcing and of the rows that act; or more: loads that cancel do not make forces small that they are shared among.
@@ -37,6 +44,20 @@ impl Sizes {
             let mass = if i == j { number(place) } else { 0.0 };
             if mass > 0.0 {
                 self.mobility[i] = 1.0 / mass;
+            }
+        }
+        self.quaternions.clear();
+        let kept = d.constraints.iter();
+        let kept = kept.filter_map(|constraint| Some([constraint.attitude?, constraint.row]));
+        self.quaternions.extend(kept);
+        for &[first, _] in &self.quaternions {
+            let turns = &mut self.mobility[first..first + QUATERNION];
+            let least = turns
+                .iter()
+                .filter(|m| **m > 0.0)
+                .fold(f64::INFINITY, |a, b| a.min(*b));
+            for mobility in turns.iter_mut().filter(|m| NO_INERTIA * **m > least) {
+                *mobility = 0.0;
             }
         }
         let forcing = self.mobility.iter().zip(d.forcing);
@@ -154,10 +175,36 @@ impl Sizes {
 
     /// Compliance of a row: its acceleration by a force of 1 along it.
     pub fn compliance<T: Scalar>(&self, row: usize, dynamics: &Dynamics<T>) -> f64 {
-        let jacobian = dynamics.description().rows[row].jacobian.iter();
-        let parts =
-            jacobian.map(|&(j, place)| dynamics.motion(place).value().powi(2) * self.mobility[j]);
-        parts.sum()
+        let rows = dynamics.description().rows;
+        let number = |place: ValueRef| dynamics.motion(place).value();
+        let turns = |j: usize| {
+            let mut quaternions = self.quaternions.iter();
+            quaternions.any(|&[first, _]| j.wrapping_sub(first) < QUATERNION)
+        };
+        let parts = rows[row].jacobian.iter().filter(|&&(j, _)| !turns(j));
+        let parts = parts.map(|&(j, place)| number(place).powi(2) * self.mobility[j]);
+        let mut compliance: f64 = parts.sum();
+        for &[first, length] in &self.quaternions {
+            let part = |row: usize| {
+                let mut part = [0.0; QUATERNION];
+                for &(j, place) in rows[row].jacobian {
+                    if let Some(x) = j.checked_sub(first).and_then(|k| part.get_mut(k)) {
+                        *x = number(place);
+                    }
+                }
+                part
+            };
+            let (turns, grows) = (part(row), part(length));
+            let dot = |a: [f64; QUATERNION], b: [f64; QUATERNION]| -> f64 {
+                a.iter().zip(b).map(|(a, b)| a * b).sum()
+            };
+            let share = dot(turns, grows) / dot(grows, grows).max(f64::MIN_POSITIVE);
+            for k in 0..QUATERNION {
+                let along = turns[k] - share * grows[k];
+                compliance += along * along * self.mobility[first + k];
+            }
+        }
+        compliance
     }
 
     /// Size of the normal force of friction `f`.
