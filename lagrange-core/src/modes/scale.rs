@@ -177,11 +177,11 @@ impl Sizes {
     pub fn compliance<T: Scalar>(&self, row: usize, dynamics: &Dynamics<T>) -> f64 {
         let rows = dynamics.description().rows;
         let number = |place: ValueRef| dynamics.motion(place).value();
-        let turns = |j: usize| {
+        let is_of_turns = |j: usize| {
             let mut quaternions = self.quaternions.iter();
             quaternions.any(|&[first, _]| j.wrapping_sub(first) < QUATERNION)
         };
-        let parts = rows[row].jacobian.iter().filter(|&&(j, _)| !turns(j));
+        let parts = rows[row].jacobian.iter().filter(|&&(j, _)| !is_of_turns(j));
         let parts = parts.map(|&(j, place)| number(place).powi(2) * self.mobility[j]);
         let mut compliance: f64 = parts.sum();
         for &[first, length] in &self.quaternions {

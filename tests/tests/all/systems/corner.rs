@@ -2,7 +2,7 @@
 
 use lagrange_core::prelude::*;
 use lagrange_tests::fuzz::METHODS;
-use lagrange_tests::{agree, certified, run_by, words};
+use lagrange_tests::{agree, certified, run_by, times, words};
 
 /// A ball rolls along the corner of a tub's wall and floor.
 #[derive(Lagrangian, Clone, Debug)]
@@ -217,6 +217,68 @@ fn a_block_that_lands_in_a_corner_that_moves_sticks_there() {
                     reach * (rate * 1.5).sin(),
                     10.0 * tolerance,
                 );
+            }
+        }
+    }
+}
+
+/// A cube lies flat on the floor and flat against a wall that pushes it, and then withdraws.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x[3]),
+    attitude(cube: q),
+    define(face = -reach*sin(rate*t)),
+    kinetic = mass/2*dot(der(x), der(x)) + inertia/2*dot(cube.body_rate, cube.body_rate),
+    potential = mass*gravity*x[2],
+    contact(floor[k in 0..4]: x[2] + half*(ahead[k]*cube.axes[0][2] + aside[k]*cube.axes[1][2] - cube.axes[2][2]) >= 0),
+    contact(wall[k in 0..4]: x[0] + half*(ahead[k]*cube.axes[2][0] + aside[k]*cube.axes[1][0] - cube.axes[0][0]) >= face),
+    start(pushed: x[0] = half, x[2] = half, der(x[0]) = -reach*rate),
+)]
+struct Cube {
+    mass: f64,
+    inertia: f64,
+    gravity: f64,
+    half: f64,
+    reach: f64,
+    rate: f64,
+    ahead: [f64; 4],
+    aside: [f64; 4],
+}
+
+/// All four forces of the wall end together, with the push, however they were shared; the cube slides on with the wall's speed and does not tip. At its
+/// attitude the first number of the quaternion moves nothing, so that its inertia says nothing of forces.
+#[test]
+fn a_cube_that_a_wall_has_pushed_slides_on() {
+    for (half, reach, rate) in [(0.2, 0.05, 6.0), (0.1, 0.08, 4.0)] {
+        let cube = Cube {
+            mass: 1.0,
+            inertia: 0.0267,
+            gravity: 9.81,
+            half,
+            reach,
+            rate,
+            ahead: [1.0, 1.0, -1.0, -1.0],
+            aside: [1.0, -1.0, 1.0, -1.0],
+        };
+        for method in ["taylor", "dop853", "radau5"] {
+            for tolerance in [1e-6, 1e-9, 1e-12] {
+                let asked = format!("{half} {method} {tolerance:e}");
+                let motion = run_by(&cube, (method, tolerance), cube.at(Cube::PUSHED), 1.2);
+                let left = core::f64::consts::PI / rate;
+                for k in 0..4 {
+                    let lost = times(&motion, &format!("wall[{k}]"), "lost");
+                    assert_eq!(lost.len(), 1, "{asked}: {:?}", words(&motion));
+                    agree(&asked, lost[0], left, 20.0 * tolerance);
+                }
+                let State { q, .. } = motion.final_state();
+                agree(
+                    &asked,
+                    q[0],
+                    half + reach * rate * (1.2 - left),
+                    20.0 * tolerance,
+                );
+                agree(&asked, q[2], half, 20.0 * tolerance);
+                certified(asked, &motion);
             }
         }
     }
