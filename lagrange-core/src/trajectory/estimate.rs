@@ -151,10 +151,11 @@ impl Summary {
         let (mut differences, mut largest): (Vec<f64>, Option<f64>) = (Vec::new(), None);
         loop {
             let (here, there) = (self.events.get(i), other.events.get(k));
-            let ends = |event: Option<&Happening>| event.filter(|e| accumulates(e)).map(|e| e.0);
-            let next = if let Some(contact) = ends(here).or(ends(there)) {
-                let here = self.end_of_impacts(i, contact);
-                here.zip(other.end_of_impacts(k, contact))
+            let ends =
+                |event: Option<&Happening>| event.filter(|e| accumulates(e)).map(|e| (e.0, e.2));
+            let next = if let Some(end) = ends(here).or(ends(there)) {
+                let here = self.end_of_impacts(i, end);
+                here.zip(other.end_of_impacts(k, end))
             } else {
                 let same = here
                     .zip(there)
@@ -178,13 +179,19 @@ impl Summary {
         }
     }
 
-    /// The end of infinitely many impacts from event `from` on, and the first event after its instant. A contact whose last
-    /// impact leaves it closed has made finitely many.
-    fn end_of_impacts(&self, from: usize, contact: Subject) -> Option<(usize, usize)> {
+    /// The end of infinitely many impacts from event `from` on that is nearest to that of a contact in another run, and the first event after
+    /// its instant. A contact whose last impact leaves it closed has made finitely many.
+    fn end_of_impacts(
+        &self,
+        from: usize,
+        (contact, time): (Subject, f64),
+    ) -> Option<(usize, usize)> {
         let coming = &self.events[from..];
         let closes = |event: &Happening| (event.0, event.1) == (contact, EventKind::Closed);
-        let ends = |event: &Happening| accumulates(event) || closes(event);
-        let found = coming.iter().position(ends)?;
+        let ends = coming.iter().enumerate();
+        let ends = ends.filter(|(_, event)| accumulates(event) || closes(event));
+        let off = |event: &Happening| (event.2 - time).abs();
+        let (found, _) = ends.min_by(|a, b| off(a.1).total_cmp(&off(b.1)))?;
         let time = coming[found].2;
         let after = coming[found..].iter().take_while(|event| event.2 == time);
         Some((from + found, from + found + after.count()))
