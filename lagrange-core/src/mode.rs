@@ -177,6 +177,12 @@ impl Mode {
             > 0
     }
 
+    /// Whether a friction slips.
+    pub(crate) fn slips(&self) -> bool {
+        let mut frictions = self.frictions.iter();
+        frictions.any(|friction| matches!(friction, FrictionMode::Slip(_)))
+    }
+
     /// Whether a slip of two components begins in it.
     pub(crate) fn has_incipient_slip(&self) -> bool {
         self.incipient().next().is_some()

@@ -12,7 +12,7 @@ use crate::integrate::taylor::worse;
 /// Parts of a step at which guards are looked at: no two differ by the same, so that no load has the same value at all of them by its period.
 const WITHIN: [f64; 8] = [0.06, 0.17, 0.31, 0.42, 0.57, 0.69, 0.83, 0.95];
 /// A step is so many times longer than the last one at most,
-const GROWTH: f64 = 4.0;
+const GROWTH: f64 = 2.0;
 /// and the first one this part of the span.
 const FIRST: f64 = 1.0 / 64.0;
 
@@ -22,6 +22,7 @@ impl<T: Scalar> Run<T> {
         let rests = |(j, v): (usize, &T)| v.value().abs() <= self.settings.allowed(j, 0.0);
         self.changes_with_time
             && (self.locator.polynomials.get(0).is_some() || self.switcher.redundant.has_open())
+            && !self.now.mode.slips()
             && self.now.state.v.iter().enumerate().all(rests)
     }
 

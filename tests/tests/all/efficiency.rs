@@ -43,11 +43,11 @@ fn work_on_the_wheel_does_not_grow() {
         &expect![[r#"
             method        steps  rejected  evaluations  series  factorizations  projections
             taylor            9         0           15      10               0            0
-            dop853           22         2          653       4               0            0
-            dopri5           96         0         1657       4               0            0
-            verner98         17         0          571       4               0            0
+            dop853           22         2          654       4               0            0
+            dopri5           96         0         1660       4               0            0
+            verner98         17         0          568       4               0            0
             radau5          281         0         5270       4               9            0
-            rk4:0.005       603         0         9670       4               0            0
+            rk4:0.005       603         0         9671       4               0            0
             gauss6:0.01     303         0         7345       4               0            0
         "#]],
     );
