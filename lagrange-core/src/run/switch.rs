@@ -528,7 +528,9 @@ impl<T: Scalar> Run<T> {
     fn rest_where_impact_leaves_nothing(&mut self, facts: &mut SwitchFacts) -> Result<(), Error> {
         let d = self.description();
         let rubs = |f: &usize| {
-            d.frictions[*f].normal.presses(|c| facts.touching[c])
+            let friction = &d.frictions[*f];
+            d.rows[friction.row].rheonomic
+                && friction.normal.presses(|c| facts.touching[c])
                 && !facts.resting[*f]
                 && self.dynamics.effects().includes(d, Item::Friction(*f))
         };
