@@ -178,7 +178,7 @@ impl Mode {
     }
 
     /// Whether a friction slips.
-    pub(crate) fn slips(&self) -> bool {
+    pub(crate) fn has_slips(&self) -> bool {
         let mut frictions = self.frictions.iter();
         frictions.any(|friction| matches!(friction, FrictionMode::Slip(_)))
     }

@@ -22,7 +22,7 @@ impl<T: Scalar> Run<T> {
         let rests = |(j, v): (usize, &T)| v.value().abs() <= self.settings.allowed(j, 0.0);
         self.changes_with_time
             && (self.locator.polynomials.get(0).is_some() || self.switcher.redundant.has_open())
-            && !self.now.mode.slips()
+            && !self.now.mode.has_slips()
             && self.now.state.v.iter().enumerate().all(rests)
     }
 
