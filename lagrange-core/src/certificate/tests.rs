@@ -249,12 +249,12 @@ fn a_guard_that_is_true_for_a_thousandth_of_a_step_is_found() {
     finds(&certificate(&trajectory), &[Subject::Marks]);
 }
 
-/// A block that friction holds against a growing pull.
+/// A block that friction holds against a pull that grows with what drifts away.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(x),
-    kinetic = der(x)^2 / 2,
-    force(pull: x = t),
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    force(pull: x = y),
     friction(grip: slip = der(x), normal = 1, static = mu),
 )]
 struct Held {
@@ -264,9 +264,9 @@ struct Held {
 /// The same on a smoother floor.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(x),
-    kinetic = der(x)^2 / 2,
-    force(pull: x = t),
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    force(pull: x = y),
     friction(grip: slip = der(x), normal = 1, static = 0.95 * mu),
 )]
 struct Smoother {
@@ -275,8 +275,10 @@ struct Smoother {
 
 #[test]
 fn a_slip_that_is_missed_late_in_a_long_step_is_found() {
-    let run = Simulation::new(&Held { mu: 1.0 }).run(State::new(vec![0.0], vec![0.0]), 0.0..1.0);
+    let start = State::new(vec![0.0; 2], vec![0.0, 1.0]);
+    let run = Simulation::new(&Held { mu: 1.0 }).run(start, 0.0..1.0);
     let run = run.expect("a run");
+    assert_eq!(run.segments.len(), 1);
     for seed in 0..20 {
         let smoother = against(&run, <Smoother as Derived>::DECLARATION, seed, 1.0);
         finds(&smoother, &[Subject::Cones]);
