@@ -131,6 +131,11 @@ impl Hidden {
         (!is_empty).then_some(hidden)
     }
 
+    /// Whether there are roots among them.
+    pub(super) fn has_roots(&self) -> bool {
+        !self.roots.is_empty()
+    }
+
     /// The part of a step, up to `end` of it, that hides nothing from a method of this order: `end`, or less.
     pub(super) fn shown<T: Scalar>(
         &mut self,

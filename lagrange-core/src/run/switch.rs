@@ -1,6 +1,7 @@
 //! A switch: forces just before, impact if something is hit, the next mode, the log.
 
 use super::accumulation::{Impacts, Train};
+use super::hidden::Hidden;
 use super::{Progress, Run};
 use crate::arithmetic::{Scalar, epsilon, rounding};
 use crate::effects::Item;
@@ -102,12 +103,9 @@ impl<T: Scalar> Run<T> {
         if !self.locator.rests.is_empty() {
             self.come_to_rest()?;
         }
-        if self
-            .locator
-            .fallen
-            .iter()
-            .any(|guard| matches!(guard, Guard::Slip(_)))
-        {
+        let roots = self.hidden.as_ref().is_some_and(Hidden::has_roots);
+        let mut fallen = self.locator.fallen.iter();
+        if roots && fallen.any(|guard| matches!(guard, Guard::Slip(_))) {
             self.drop_rounding_of_velocities();
         }
         if !self.now.valued {
