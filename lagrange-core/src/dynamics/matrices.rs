@@ -129,10 +129,10 @@ impl<T: Scalar> Dynamics<T> {
         let attitudes = self.attitudes();
         let attitudes = attitudes.map(|k| (k, split_off(k, &mut columns, n, &mut forces)));
         let attitudes: Vec<_> = attitudes.collect();
-        // What slides presses the columns apart: rows that depend on one another may have independent forces.
-        let rank = match pattern.slides.is_empty() {
-            true => self.independent_rows(),
-            false => acting.len(),
+        // Forces that act through multipliers press the columns apart: rows that depend on one another may have independent forces.
+        let rank = match pattern.is_coupled() {
+            false => self.independent_rows(),
+            true => acting.len(),
         };
         let freedom = least_norm(&columns, n, rank, &mut forces);
         let mut least = LeastForces {

@@ -74,6 +74,7 @@ pub(crate) struct KktPattern<T> {
     collected: KktTerms,
     terms: Vec<Term<T>>,
     dependent: Vec<bool>,
+    entangled: Vec<bool>,
     constant_rows: Vec<usize>,
     a: Vec<T>,
     c: Vec<T>,
@@ -188,6 +189,7 @@ impl<T: Scalar> KktPattern<T> {
             a,
             c,
             dependent,
+            entangled,
             elimination,
             kept,
             eliminated,
@@ -206,12 +208,16 @@ impl<T: Scalar> KktPattern<T> {
             dependent.contains(&true)
         };
         let is_row = |i| collected.has_constant_row(description, i, constants);
-        if collected.is_coupled() && find(constant_rows, &is_row) {
+        let is_constant = |i| collected.is_constant(description, i, constants);
+        if !collected.is_coupled() {
+            find(constant_rows, &is_constant);
+        } else if find(constant_rows, &is_row) {
             // How more contacts than are needed share their load moves what slides on them: the solver finds that for all rows.
             constant_rows.clear();
         } else {
-            let is_constant = |i| collected.is_constant(description, i, constants);
-            find(constant_rows, &is_constant);
+            find_entangled(description, acting, entangled);
+            let changes = (0..acting.len()).any(|i| entangled[i] && !is_row(i));
+            find(constant_rows, &|i| is_constant(i) && !(changes && entangled[i]));
         }
         let mut position = 0;
         // A dependent row follows from the others and has no force of its own.
@@ -456,6 +462,21 @@ impl<T: Scalar> KktPattern<T> {
                 .map(|&(factor, place)| (factor * read(place)).value().abs());
             (row, sizes.fold(0.0, f64::max))
         })
+    }
+}
+
+/// Finds which of the rows that act may depend on one another somewhere: not one that has a coordinate to itself, nor what is left without it.
+fn find_entangled(description: &Description, acting: &[usize], entangled: &mut Vec<bool>) {
+    entangled.clear();
+    entangled.resize(acting.len(), true);
+    let jacobian = |i: usize| description.rows[acting[i]].jacobian.iter();
+    let has = |i: usize, coordinate| jacobian(i).any(|&(j, _)| j == coordinate);
+    let alone = |i: usize, entangled: &[bool]| {
+        let others = |j| (0..acting.len()).any(|k| k != i && entangled[k] && has(k, j));
+        jacobian(i).any(|&(j, _)| !others(j))
+    };
+    while let Some(i) = (0..acting.len()).find(|&i| entangled[i] && alone(i, entangled)) {
+        entangled[i] = false;
     }
 }
 
