@@ -12,7 +12,7 @@ use super::emitted::Emitted;
 use super::emitted::is_finite;
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::{Scalar, epsilon};
-use crate::linear::{Columns, Inertia};
+use crate::linear::{Inertia, Shares};
 use crate::system::{Row, ValueRef};
 
 /// Residuals are rounding below this share of the terms that they cancel from.
@@ -430,9 +430,7 @@ impl<T: Scalar> Dynamics<T> {
             }
             self.work.factorizations += 1;
             let factored = match following {
-                0 => self
-                    .projector
-                    .factor(Inertia::Symmetric, Columns::Transposed),
+                0 => self.projector.factor(Inertia::Symmetric, Shares::Any),
                 _ => self.projector.factor_dependent(size - n - following),
             };
             if factored.is_ok() {

@@ -6,7 +6,7 @@ use super::interpreted::{Extent, FORCES, Interpreted, MOTION, Part, REPORT, SYST
 use super::{Dynamics, Equations, EvaluationError};
 use crate::arithmetic::{Scalar, epsilon};
 use crate::equations::Arguments;
-use crate::linear::{Columns, Inertia, SolveError};
+use crate::linear::{Inertia, Shares, SolveError};
 use crate::system::ValueRef;
 
 impl<T: Scalar> Dynamics<T> {
@@ -420,12 +420,11 @@ fn factor<T: Scalar>(compiled: &mut Compiled<T>) -> Result<(), SolveError> {
     } else {
         Inertia::General
     };
-    let columns = if pattern.is_coupled() {
-        Columns::Coupled
-    } else {
-        Columns::Transposed
+    let shares = match pattern.shares_matter() {
+        true => Shares::Equal,
+        false => Shares::Any,
     };
-    let outcome = solver.factor(inertia, columns);
+    let outcome = solver.factor(inertia, shares);
     compiled.constants = constants;
     outcome
 }

@@ -62,6 +62,9 @@ pub(crate) struct KktTerms {
     pub columns: Vec<ColumnElement>,
     /// (coordinate, place): f and what friction of a given normal force adds.
     pub loads: Vec<(usize, ValueRef)>,
+    /// Whether something depends on how rows that depend on one another share a load: what acts through their multipliers, or a stop, mark or
+    /// branch that reads them.
+    pub shares_matter: bool,
 }
 
 /// Whether a row of a description acts in a mode as an equation.
@@ -178,6 +181,9 @@ impl KktTerms {
                 self.push_force(coupling.coordinate, force, slide.source);
             }
         }
+        let mut watched = description.watched_rows.iter();
+        self.shares_matter =
+            self.is_coupled() || watched.any(|row| self.acting.binary_search(row).is_ok());
     }
 
     /// Sliding frictions: they act through the column of their normal force, or as a load.

@@ -36,4 +36,4 @@ pub(crate) use lemke::{Lemke, Outcome as LemkeOutcome};
 pub(crate) use lu::dot;
 pub(crate) use pattern::KktPattern;
 pub(crate) use small::{VanishingCombinations, solve_small};
-pub(crate) use solver::{Columns, Inertia, SolveError, Solver, UnitQuaternion};
+pub(crate) use solver::{Inertia, Shares, SolveError, Solver, UnitQuaternion};

@@ -91,6 +91,11 @@ impl<T: Scalar> KktPattern<T> {
         self.collected.is_coupled()
     }
 
+    /// Whether something depends on how rows that depend on one another share a load.
+    pub(crate) fn shares_matter(&self) -> bool {
+        self.collected.shares_matter
+    }
+
     /// Number of equations.
     pub(crate) fn size(&self) -> usize {
         self.free() + self.kept.len()
@@ -209,15 +214,17 @@ impl<T: Scalar> KktPattern<T> {
         };
         let is_row = |i| collected.has_constant_row(description, i, constants);
         let is_constant = |i| collected.is_constant(description, i, constants);
-        if !collected.is_coupled() {
+        if !collected.shares_matter {
             find(constant_rows, &is_constant);
         } else if find(constant_rows, &is_row) {
-            // How more contacts than are needed share their load moves what slides on them: the solver finds that for all rows.
+            // How more contacts than are needed share their load matters: the solver finds that for all rows.
             constant_rows.clear();
         } else {
             find_entangled(description, acting, entangled);
             let changes = (0..acting.len()).any(|i| entangled[i] && !is_row(i));
-            find(constant_rows, &|i| is_constant(i) && !(changes && entangled[i]));
+            find(constant_rows, &|i| {
+                is_constant(i) && !(changes && entangled[i])
+            });
         }
         let mut position = 0;
         // A dependent row follows from the others and has no force of its own.

@@ -54,14 +54,14 @@ pub(crate) enum Inertia {
     General,
 }
 
-/// What is known of the columns of forces.
+/// How rows that depend on one another share a load.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Columns {
-    /// They are those of the rows: how rows that depend on one another share a force has no effect.
+pub(crate) enum Shares {
+    /// Nothing depends on it: those set aside carry nothing.
     #[default]
-    Transposed,
-    /// Forces act through the multipliers of others, so that it may have one.
-    Coupled,
+    Any,
+    /// As equal springs below a rigid body do.
+    Equal,
 }
 
 /// Which factors are current.
@@ -104,7 +104,7 @@ pub(crate) struct Solver<T> {
     aside: Vec<bool>,
     /// Whether they stay aside, wherever the matrix is next.
     holds: bool,
-    columns: Columns,
+    shared: Shares,
     /// What the force of each row is of those set aside, by these, with its sign changed; scaled.
     shares: Vec<T>,
     work: Vec<T>,
@@ -190,8 +190,8 @@ impl<T: Scalar> Solver<T> {
     }
 
     /// Factors the matrix.
-    pub(crate) fn factor(&mut self, inertia: Inertia, columns: Columns) -> Result<(), SolveError> {
-        self.columns = columns;
+    pub(crate) fn factor(&mut self, inertia: Inertia, shared: Shares) -> Result<(), SolveError> {
+        self.shared = shared;
         if self.holds && self.aside.len() == self.size - self.coordinates {
             self.equilibrate();
             if self.keeps_weak_rows() {
@@ -235,7 +235,7 @@ impl<T: Scalar> Solver<T> {
 
     /// The same where no more than so many rows are independent, although more may seem to be.
     pub(crate) fn factor_dependent(&mut self, most: usize) -> Result<(), SolveError> {
-        (self.columns, self.holds) = (Columns::Transposed, false);
+        (self.shared, self.holds) = (Shares::Any, false);
         self.factors = Factors::Complete;
         self.aside.clear();
         self.aside.resize(self.size - self.coordinates, false);
@@ -335,7 +335,7 @@ impl<T: Scalar> Solver<T> {
     /// LU of the scaled matrix, the equations of rows set aside replaced by λ = 0 or, where that has an effect, by those of
     /// [`Self::share`].
     fn factor_kept(&mut self) {
-        let shared = self.columns == Columns::Coupled && self.has_rows_aside();
+        let shared = self.shared == Shares::Equal && self.has_rows_aside();
         if shared {
             self.share();
         }

@@ -1,6 +1,6 @@
 //! Random systems: the planned solution against the whole system written out and solved by nalgebra.
 
-use super::{Columns, Inertia, KktPattern, Solver};
+use super::{Inertia, KktPattern, Shares, Solver};
 use crate::effects::Effects;
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::program::{Builder as Loader, Encoded, Register, room};
@@ -199,6 +199,7 @@ fn random_system(seed: u64) -> (Description, Builder) {
         forcing: forcing.leak(),
         rows: rows.leak(),
         couplings: vec![coupling].leak(),
+        watched_rows: &[],
         kinetic: &[],
         potential: &[],
         constraints: vec![constraint].leak(),
@@ -395,7 +396,7 @@ fn by_plan(d: &Description, mode: &Mode, b: &Builder) -> Option<Vec<f64>> {
     } else {
         Inertia::General
     };
-    solver.factor(inertia, Columns::Transposed).ok()?;
+    solver.factor(inertia, Shares::Any).ok()?;
     let mut right = pattern.constant_load.clone();
     for load in &pattern.loads {
         right[load.row] += load.factor * nodes[load.node];

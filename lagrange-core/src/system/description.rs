@@ -47,6 +47,9 @@ pub struct Description {
     /// Forces proportional to a row's multiplier, beside aᵀλ: `Q[coordinate] += place · λ[row]`. Motion.
     #[doc(hidden)]
     pub couplings: &'static [Coupling],
+    /// Rows whose forces stops, marks and branches read, and of frictions among them those that press.
+    #[doc(hidden)]
+    pub watched_rows: &'static [usize],
     /// Named kinetic energies.
     pub kinetic: &'static [Effect],
     /// Named potential energies.

@@ -159,6 +159,7 @@ fn empty(core: &TokenStream) -> TokenStream {
             forcing: &[],
             rows: &[],
             couplings: &[],
+            watched_rows: &[],
             kinetic: &[],
             potential: &[],
             constraints: &[],

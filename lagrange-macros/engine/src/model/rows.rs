@@ -1,6 +1,7 @@
 //! The rows a v̇ + γ = 0 of a system by number: constraints, contacts, then slip components, each as declared.
 
 use super::{Normal, System};
+use crate::sorted::SortedSet;
 use crate::symbolic::Symbol;
 use std::ops::Range;
 
@@ -24,6 +25,29 @@ impl System {
         let slips = self.frictions.iter().flat_map(|f| &f.slip);
         let slips = slips.map(|&(_, force)| force);
         constraints.chain(contacts).chain(slips).collect()
+    }
+
+    /// Rows whose forces stops, marks and branches read, and of frictions among them those that press.
+    pub fn watched_rows(&self) -> Vec<usize> {
+        let terms = self.stops.iter().chain(&self.marks).flat_map(|w| &w.terms);
+        let guards = self.branches.iter().map(|branch| &branch.guard);
+        let symbols = terms.chain(guards).flat_map(|&e| self.pool.symbols(e));
+        let read: SortedSet<Symbol> = symbols.collect();
+        let mut rows: SortedSet<usize> = SortedSet::new();
+        for (row, force) in self.multipliers().into_iter().enumerate() {
+            if read.contains(&force) {
+                rows.insert(row);
+            }
+        }
+        for (f, friction) in self.frictions.iter().enumerate() {
+            if self.slip_rows(f).any(|row| rows.contains(&row)) {
+                rows.extend(self.pressing(friction.normal));
+                if let Normal::Contact(contact) = friction.normal {
+                    rows.insert(self.contact_row(contact));
+                }
+            }
+        }
+        rows.into_iter().collect()
     }
 
     /// The contact that must be closed for a friction to act, if there is one.

@@ -176,7 +176,7 @@ macro_rules! variants {
 
 structs! {
     Description {
-        name documentation parameters coordinates needs constants motion report mass inertia forcing rows couplings kinetic potential
+        name documentation parameters coordinates needs constants motion report mass inertia forcing rows couplings watched_rows kinetic potential
         constraints contacts frictions resultants forces dissipations branches energy momenta observes stops marks starts units impacts
     }
     Parameter { name documentation unit tex domain }

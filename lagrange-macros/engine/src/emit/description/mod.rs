@@ -27,6 +27,7 @@ pub fn description(program: &Program) -> TokenStream {
     let (mass, forcing) = (writer.mass(), writer.places(&structure.forcing));
     let inertia = writer.inertia();
     let (rows, couplings) = (writer.rows(), writer.couplings());
+    let watched_rows = system.watched_rows().into_iter().map(index);
     let effect = |term: &EnergyTerm, need: &NeedId| writer.effect(&term.name, *need);
     let kinetic = each(&system.kinetic, &structure.kinetic, effect);
     let potential = each(&system.potential, &structure.potential, effect);
@@ -69,6 +70,7 @@ pub fn description(program: &Program) -> TokenStream {
             forcing: #forcing,
             rows: &[#(#rows),*],
             couplings: &[#(#couplings),*],
+            watched_rows: &[#(#watched_rows),*],
             kinetic: &[#(#kinetic),*],
             potential: &[#(#potential),*],
             constraints: &[#(#constraints),*],
