@@ -2,7 +2,7 @@
 
 use super::{PI, state};
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, event, run_by, times, words};
+use lagrange_tests::{agree, certified, event, run_by, times, words};
 
 /// A sledge on two rough runners under a load that comes and goes.
 #[derive(Lagrangian, Clone, Debug)]
@@ -444,6 +444,80 @@ fn two_frictions_hold_as_one_of_their_sum() {
         for (k, (strong, weak)) in strong.iter().zip(&weak).enumerate() {
             agree(method, *strong, *weak, 1e-8);
             agree(method, *strong, first + k as f64 * PI / 1.3, 1e-7);
+        }
+    }
+}
+
+/// A beam on three supports, whose load wanders; a gauge is pushed by the first support.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y, theta, u, x),
+    kinetic = (der(y)^2 + der(u)^2 + der(x)^2)/2 + der(theta)^2/6,
+    potential = gravity * y,
+    force(lift: y = load * sin(rate*t)),
+    force(turn: theta = torque * sin(rate*t)),
+    contact(under[k in 0..3]: y + (k - 1) * sin(theta) >= 0),
+    force(gauge: u = under[0]),
+    friction(grip on under[2]: slip = der(x), static = mu),
+    mark(high: under[0] >= limit),
+)]
+struct Weighed {
+    gravity: f64,
+    load: f64,
+    rate: f64,
+    torque: f64,
+    limit: f64,
+    mu: f64,
+}
+
+/// Marks, forces and frictions read the load that is reported, that of equal springs: λ = g/3 − (load/3 + (k − 1) torque/2) sin ωt. The support in
+/// the middle has a constant row and the others have not.
+#[test]
+fn what_reads_a_shared_force_reads_the_one_reported() {
+    let scene = Weighed {
+        gravity: 9.81,
+        load: 1.5,
+        rate: 1.3,
+        torque: 3.0,
+        limit: 4.0,
+        mu: 0.1,
+    };
+    let first = (0.73_f64).asin() / scene.rate;
+    let (until, period) = (12.0, 2.0 * PI / scene.rate);
+    let waves = |t: f64| t / scene.rate - (scene.rate * t).sin() / scene.rate.powi(2);
+    let smooth = Effects::all().without(Weighed::GRIP);
+    let light = smooth.clone().without(Weighed::GAUGE);
+    for (effects, gauged, rubs) in [
+        (Effects::all(), true, true),
+        (smooth, true, false),
+        (light, false, false),
+    ] {
+        for method in ["taylor", "dop853", "radau5"] {
+            let simulation = Simulation::new(&scene)
+                .effects(effects.clone())
+                .method(method.parse().expect("a method"));
+            let start = state(&[0.0; 4], &[0.0, 0.0, 0.0, 20.0]);
+            let motion = simulation.run(start, 0.0..until).expect(method);
+            certified(method, &motion);
+            let marks = times(&motion, "high", "mark");
+            assert_eq!(marks.len(), 3, "{method}: {marks:?}");
+            for (k, time) in marks.iter().enumerate() {
+                agree(method, *time, first + k as f64 * period, 1e-7);
+            }
+            let end = motion.final_state();
+            if gauged {
+                agree(
+                    method,
+                    end.q[2],
+                    9.81 / 6.0 * until.powi(2) + waves(until),
+                    1e-6,
+                );
+            }
+            if rubs {
+                // −2 sin ωt at the other end: the speed is lost by 0.1 of its integral.
+                let lost = 3.27 * until - 2.0 * (1.0 - (1.3 * until).cos()) / 1.3;
+                agree(method, end.v[3], 20.0 - 0.1 * lost, 1e-6);
+            }
         }
     }
 }
