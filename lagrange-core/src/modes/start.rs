@@ -175,6 +175,7 @@ pub fn consistent<T: Scalar>(
     let mut project = Holding {
         dynamics,
         t,
+        reference,
         state: &state,
         held: &held,
     };
@@ -192,16 +193,38 @@ pub fn consistent<T: Scalar>(
 struct Holding<'a, T: Scalar> {
     dynamics: &'a mut Dynamics<T>,
     t: T,
+    /// The state before they were put in.
+    reference: &'a State<T>,
     state: &'a State<T>,
     held: &'a [Vec<bool>; 2],
 }
 
 impl<T: Scalar> Holding<'_, T> {
     /// The state on what holds in `mode`.
+    ///
+    /// Newton's method does not leave a position where constraints lose rank, a dead centre, as one that is held asks: the other coordinates are
+    /// moved aside for it, each by what has the same kinetic energy as what the held ones have moved.
     fn onto(&mut self, mode: &Mode) -> Result<State<T>, EvaluationError> {
-        let mut state = self.state.clone();
-        let [positions, velocities] = self.held;
         self.dynamics.set_mode(mode);
+        self.moved_onto(self.state.clone()).or_else(|error| {
+            let mut aside = self.state.clone();
+            let mass = self.dynamics.mass_matrix();
+            let inertia = |j: usize| mass[(j, j)].value();
+            let moved = aside.q.iter().zip(&self.reference.q).enumerate();
+            let energy: f64 = moved
+                .map(|(j, (&q, &before))| inertia(j) * (q - before).value().powi(2))
+                .sum();
+            for (j, q) in aside.q.iter_mut().enumerate() {
+                if !self.held[0][j] && inertia(j) > 0.0 {
+                    *q += T::from_f64((energy / inertia(j)).sqrt());
+                }
+            }
+            self.moved_onto(aside).map_err(|_| error)
+        })
+    }
+
+    fn moved_onto(&mut self, mut state: State<T>) -> Result<State<T>, EvaluationError> {
+        let [positions, velocities] = self.held;
         let (q, v) = (&mut state.q, &mut state.v);
         self.dynamics
             .project_holding(self.t, q, v, positions, velocities)?;
@@ -215,7 +238,7 @@ impl<T: Scalar> Holding<'_, T> {
         kept.frictions.fill(FrictionMode::Inactive);
         for c in 0..mode.contacts.len() {
             kept.contacts[c] = mode.contacts[c];
-            kept.contacts[c] &= !self.holds_gap(c) || self.onto(&kept).is_ok();
+            kept.contacts[c] &= !self.takes_part(c) || self.onto(&kept).is_ok();
         }
         for f in 0..mode.frictions.len() {
             let presses = self.dynamics.description().frictions[f].normal;
@@ -229,11 +252,11 @@ impl<T: Scalar> Holding<'_, T> {
         kept
     }
 
-    /// Whether the gap of a contact, or its rate, is given by what is held alone.
-    fn holds_gap(&self, contact: usize) -> bool {
+    /// Whether what is held has a part in the gap of a contact, or in its rate.
+    fn takes_part(&self, contact: usize) -> bool {
         let d = self.dynamics.description();
         let gap = d.rows[d.contacts[contact].row].jacobian;
         let mut held = self.held.iter();
-        held.any(|held| gap.iter().all(|&(j, _)| held[j]))
+        held.any(|held| gap.iter().any(|&(j, _)| held[j]))
     }
 }
