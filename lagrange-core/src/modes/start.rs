@@ -203,7 +203,7 @@ impl<T: Scalar> Holding<'_, T> {
     /// The state on what holds in `mode`.
     ///
     /// Newton's method does not leave a position where constraints lose rank, a dead centre, as one that is held asks: the other coordinates are
-    /// moved aside for it, each by what has the same kinetic energy as what the held ones have moved.
+    /// moved aside for it, each by half of what has the same kinetic energy as what the held ones have moved.
     fn onto(&mut self, mode: &Mode) -> Result<State<T>, EvaluationError> {
         self.dynamics.set_mode(mode);
         self.moved_onto(self.state.clone()).or_else(|error| {
@@ -216,7 +216,7 @@ impl<T: Scalar> Holding<'_, T> {
                 .sum();
             for (j, q) in aside.q.iter_mut().enumerate() {
                 if !self.held[0][j] && inertia(j) > 0.0 {
-                    *q += T::from_f64((energy / inertia(j)).sqrt());
+                    *q += T::from_f64(0.5 * (energy / inertia(j)).sqrt());
                 }
             }
             self.moved_onto(aside).map_err(|_| error)
