@@ -143,3 +143,73 @@ fn what_is_held_lifts_contacts_and_moves_what_rubs() {
         "{refused:?}"
     );
 }
+
+/// A parallelogram of rods, which closes wherever it lies flat in two ways.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(a, b, c),
+    kinetic = inertia/2 * (der(a)^2 + der(b)^2 + der(c)^2),
+    constraint(along: side*cos(a) + base*cos(c) == base + side*cos(b)),
+    constraint(across: side*sin(a) + base*sin(c) == side*sin(b)),
+    start(flat: a = 0),
+)]
+struct Parallelogram {
+    side: f64,
+    base: f64,
+    inertia: f64,
+}
+
+/// Newton's method finds no way out of the flat position by one angle alone.
+#[test]
+fn an_angle_takes_a_linkage_out_of_its_flat_position() {
+    let scene = Parallelogram {
+        side: 1e-3,
+        base: 2e-3,
+        inertia: 1e-9,
+    };
+    let simulation = Simulation::new(&scene);
+    for angle in [-2.5, -0.3, 0.01, 0.5, 1.0, 2.0, 3.0] {
+        let held = FixedComponents::default().q(Parallelogram::A, angle);
+        let flat = scene.at(Parallelogram::FLAT);
+        let found = simulation.consistent(0.0, &flat, &held).expect("a state");
+        assert_eq!(found.q[0], angle);
+        agree("side", found.q[1], angle, 1e-9);
+        agree("coupler", found.q[2], 0.0, 1e-9);
+    }
+}
+
+/// A ladder on a floor and against a wall.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, lean),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2) + mass*length^2/24 * der(lean)^2,
+    potential = mass * gravity * y,
+    contact(floor: y - length/2 * sin(lean) >= 0),
+    contact(wall: x - length/2 * cos(lean) >= 0),
+    start(leans: lean = 1.2, x = length/2 * cos(1.2), y = length/2 * sin(1.2)),
+)]
+struct Ladder {
+    mass: f64,
+    length: f64,
+    gravity: f64,
+}
+
+/// Where it cannot reach from the floor to the wall it leaves the wall.
+#[test]
+fn a_place_that_two_contacts_do_not_allow_opens_one() {
+    let scene = Ladder {
+        mass: 3.0,
+        length: 1.0,
+        gravity: 9.81,
+    };
+    let simulation = Simulation::new(&scene);
+    let leans = scene.at(Ladder::LEANS);
+    let far = FixedComponents::default().q(Ladder::X, 0.8);
+    let found = simulation.consistent(0.0, &leans, &far).expect("a state");
+    agree("leans", found.q[2], 1.2, 1e-12);
+    agree("height", found.q[1], 0.5 * 1.2_f64.sin(), 1e-12);
+    let near = FixedComponents::default().q(Ladder::X, 0.3);
+    let found = simulation.consistent(0.0, &leans, &near).expect("a state");
+    agree("leans", found.q[2], 0.6_f64.acos(), 1e-12);
+    agree("height", found.q[1], 0.4, 1e-12);
+}
