@@ -187,10 +187,14 @@ pub(super) fn against<T: Scalar>(
         alike += 1;
         let width = (segment.h * segment.end).value();
         let narrow = width <= NARROW * rounding * segment.t.value().abs();
-        let looked = k == 0 || looked < 2.0 * share - 1.0;
-        looked.then(|| Look {
-            part: segment.end.value() * (0.5 + 0.5 * part),
-            balances: !narrow && (alike <= FIRST || signed(&mut random) < 2.0 * SHARE - 1.0),
+        let last = k + 1 == record.segments.len();
+        let looked = k == 0 || last || looked < 2.0 * share - 1.0;
+        looked.then(|| {
+            let balances = alike <= FIRST || signed(&mut random) < 2.0 * SHARE - 1.0 || last;
+            Look {
+                part: segment.end.value() * (0.5 + 0.5 * part),
+                balances: balances && !narrow,
+            }
         })
     });
     let chosen: Vec<Option<Look>> = chosen.collect();
