@@ -13,6 +13,9 @@
 use super::lu::negligible;
 use crate::arithmetic::Scalar;
 
+/// A pivot below this share of the largest element is not chosen.
+const MUCH_SMALLER: f64 = 1e-3;
+
 /// A sparse matrix by rows.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Sparse<T> {
@@ -67,8 +70,9 @@ struct Echelon<T> {
 }
 
 impl<T: Scalar> Echelon<T> {
-    /// Reduces a row-major matrix with `height` rows of `width`; earlier rows take precedence over later ones.
-    fn set(&mut self, matrix: &[T], height: usize, width: usize) {
+    /// Reduces a row-major matrix with `height` rows of `width`; earlier rows take precedence over later ones. Pivots are the largest elements, or
+    /// those of the columns `like` where these are not much smaller.
+    fn set(&mut self, matrix: &[T], height: usize, width: usize, like: &[Option<usize>]) {
         let total = width + height;
         (self.width, self.height) = (width, height);
         self.rows.clear();
@@ -84,12 +88,16 @@ impl<T: Scalar> Echelon<T> {
                     self.subtract(i, above, pivot);
                 }
             }
-            let (pivot, left) = largest(&self.rows[i * total..i * total + width]);
+            let row = &self.rows[i * total..i * total + width];
+            let (pivot, left) = largest(row);
             // Not "<=": a NaN is no pivot either.
             if !(left > negligible::<T>() * size) {
                 self.pivots.push(None);
                 continue;
             }
+            let like = like.get(i).copied().flatten();
+            let like = like.filter(|&j| row[j].value().abs() >= MUCH_SMALLER * left);
+            let pivot = like.unwrap_or(pivot);
             self.pivots.push(Some(pivot));
             let inverse = T::one() / self.rows[i * total + pivot];
             self.rows[i * total..(i + 1) * total]
@@ -181,7 +189,7 @@ impl<T: Scalar> Elimination<T> {
 
     /// Which of the constant rows in `a` (row-major, `n` wide) depend on earlier ones.
     pub(crate) fn dependent(&mut self, a: &[T], n: usize, dependent: &mut Vec<bool>) {
-        self.accelerations.set(a, a.len() / n.max(1), n);
+        self.accelerations.set(a, a.len() / n.max(1), n, &[]);
         dependent.clear();
         dependent.extend(self.accelerations.pivots.iter().map(Option::is_none));
     }
@@ -199,8 +207,9 @@ impl<T: Scalar> Elimination<T> {
     ) -> bool {
         let height = a.len() / n.max(1);
         self.symmetric = symmetric;
-        self.accelerations.set(a, height, n);
-        self.forces.set(c, height, n);
+        self.accelerations.set(a, height, n, &[]);
+        // A force that a friction carries into another equation is that of its own: there may be none of it beside the loads of the other.
+        self.forces.set(c, height, n, &self.accelerations.pivots);
         if self.forces.pivots.iter().any(Option::is_none) {
             return false;
         }
