@@ -33,8 +33,11 @@ const FEWEST_SAMPLES: usize = 8;
 /// Coefficients of an interpolation lose so many digits to rounding, relative.
 const INTERPOLATION: f64 = 1e-11;
 
-/// An interpolated guard may be off by this share of what would give it other roots.
+/// An interpolated guard may be off by this share of what would give it other roots,
 const AWAY: f64 = 1e-2;
+
+/// and by this share if it is known to what an end of a step may be off.
+const CLOSE: f64 = 0.3;
 
 /// A guard that turns in a step comes close to zero where it has this share of what it was before.
 const NEAR: f64 = 1e-2;
@@ -519,18 +522,20 @@ impl GuardPolynomials {
         let mut worst = 0.0;
         for (index, curve) in self.list.iter().enumerate() {
             let c = self.curve(index);
-            let (share, floor) = allowance::<T>(curve.guard, false);
-            let allowed = (share * tolerance).max(floor).max(INTERPOLATION);
             let value = self.value(index, mode, dynamics);
             let size = value.abs() + (c[0].abs() + c[1].abs());
             let error = (at(c, s) - value).abs();
-            let allowed = allowed * size + rounding(error, curve.guard, dynamics);
-            let ratio = if error > allowed {
-                error / allowed.max(AWAY * clearance(c))
-            } else {
-                error / allowed
+            let rounding = rounding(error, curve.guard, dynamics);
+            let allowed = |located: bool| {
+                let (share, floor) = allowance::<T>(curve.guard, located);
+                (share * tolerance).max(floor).max(INTERPOLATION) * size + rounding
             };
-            worst = worse(worst, ratio);
+            let [missed, located] = [false, true].map(allowed);
+            // Where it begins with zero the root is known.
+            let begins = usize::from(c[0].abs() <= located);
+            let clear = clearance(deflate(c, begins)) * s.powi(begins as i32);
+            let accepted = located.max(AWAY * clear).max(missed.min(CLOSE * clear));
+            worst = worse(worst, error / accepted);
         }
         worst
     }
