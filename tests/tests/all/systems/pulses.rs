@@ -3,7 +3,7 @@
 use super::{PI, state};
 use lagrange_core::prelude::*;
 use lagrange_tests::fuzz::METHODS;
-use lagrange_tests::{agree, run_by, times};
+use lagrange_tests::{agree, certified, run_by, times};
 
 /// A motion in one coordinate from a position and a velocity.
 fn moved(
@@ -228,5 +228,129 @@ fn each_knock_moves_what_rests() {
                 );
             }
         }
+    }
+}
+
+/// A block that rubs under a load which beats.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2/2,
+    force(push: x = load * sin(rate*t) * sin(1.37*rate*t)),
+    friction(rub: slip = der(x), limit = limit),
+)]
+struct Beaten {
+    load: f64,
+    rate: f64,
+    limit: f64,
+}
+
+impl Beaten {
+    /// load/2 (cos (a − b) t − cos (a + b) t).
+    fn push(&self, t: f64) -> f64 {
+        0.5 * self.load * ((0.37 * self.rate * t).cos() - (2.37 * self.rate * t).cos())
+    }
+
+    /// Its integral.
+    fn pushed(&self, t: f64) -> f64 {
+        let part = |rate: f64| (rate * t).sin() / rate;
+        0.5 * self.load * (part(0.37 * self.rate) - part(2.37 * self.rate))
+    }
+
+    /// When it begins to slip and comes to rest again.
+    fn slips(&self, until: f64) -> Vec<[f64; 2]> {
+        const STEP: f64 = 1e-3;
+        let root = |from: f64, f: &dyn Fn(f64) -> f64| {
+            let (mut low, mut high) = (from, from + STEP);
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                match f(middle) > 0.0 {
+                    true => low = middle,
+                    false => high = middle,
+                }
+            }
+            high
+        };
+        let (mut t, mut slips) = (0.0, Vec::new());
+        while t < until {
+            if self.push(t + STEP).abs() <= self.limit {
+                t += STEP;
+                continue;
+            }
+            let begins = root(t, &|t| self.limit - self.push(t).abs());
+            let along = self.push(begins).signum();
+            let speed =
+                |t: f64| along * (self.pushed(t) - self.pushed(begins)) - self.limit * (t - begins);
+            t = begins + STEP;
+            while speed(t + STEP) > 0.0 {
+                t += STEP;
+            }
+            let rests = root(t, &speed);
+            slips.push([begins, rests]);
+            t = rests;
+        }
+        slips
+    }
+}
+
+/// It slips by forces that exceed what holds it by 3 parts in 10,000 and by more, for some hundredths of a second, once or twice in ten.
+#[test]
+fn no_method_misses_a_load_that_beats() {
+    let beaten = Beaten {
+        load: 10.0,
+        rate: 2.1,
+        limit: 9.81,
+    };
+    let expected = beaten.slips(200.0);
+    assert_eq!(expected.len(), 30);
+    for method in METHODS {
+        let simulation = Simulation::new(&beaten).method(method).tolerance(1e-6);
+        let found = simulation.run(state(&[0.0], &[0.0]), 0.0..200.0);
+        let found = found.expect("runs");
+        let slips = times(&found, "rub", "slips");
+        let rests = times(&found, "rub", "sticks");
+        assert_eq!((slips.len(), rests.len()), (30, 30), "{method:?}");
+        for ((slips, rests), [begins, ends]) in slips.into_iter().zip(rests).zip(&expected) {
+            agree("load", beaten.push(slips).abs(), beaten.limit, 1e-4);
+            let off = (slips - begins).abs().max((rests - ends).abs());
+            assert!(
+                off < 5e-3,
+                "{method:?}: {slips} and {rests} instead of {begins} and {ends}"
+            );
+        }
+    }
+}
+
+/// A bead that slides down a wire which is pressed by next to nothing.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2)/2,
+    force(press: y = load * sin(rate*t)^8),
+    force(weight: x = gravity),
+    constraint(wire: y == 0),
+    friction(rub on wire: slip = der(x), static = 1),
+)]
+struct Bead {
+    load: f64,
+    rate: f64,
+    gravity: f64,
+}
+
+/// The force of the wire is exact to its own size, however small it is beside the weight.
+#[test]
+fn a_small_force_that_friction_carries_is_exact() {
+    let bead = Bead {
+        load: 12.0,
+        rate: 1.3,
+        gravity: 9.81,
+    };
+    let until = 0.01_f64;
+    for method in ["taylor", "dop853", "radau5"] {
+        let run = run_by(&bead, (method, 1e-9), state(&[0.0; 2], &[0.0; 2]), until);
+        certified(method, &run);
+        let force = run.sampler().at(until).expect("the end").force(Bead::WIRE);
+        let expected = -12.0 * (1.3 * until).sin().powi(8);
+        agree(method, force / expected, 1.0, 1e-12);
     }
 }
