@@ -149,8 +149,8 @@ fn what_is_held_lifts_contacts_and_moves_what_rubs() {
 #[lagrange(
     coordinates(a, b, c),
     kinetic = inertia/2 * (der(a)^2 + der(b)^2 + der(c)^2),
-    constraint(along: side*cos(a) + base*cos(c) == base + side*cos(b)),
-    constraint(across: side*sin(a) + base*sin(c) == side*sin(b)),
+    constraint(ahead: side*cos(a) + base*cos(c) == base + side*cos(b)),
+    constraint(aside: side*sin(a) + base*sin(c) == side*sin(b)),
     start(flat: a = 0),
 )]
 struct Parallelogram {
