@@ -203,7 +203,7 @@ impl<T: Scalar> Holding<'_, T> {
     /// The state on what holds in `mode`.
     ///
     /// Newton's method does not leave a position where constraints lose rank, a dead centre, as one that is held asks: the other coordinates are
-    /// moved aside for it, each by half of what has the same kinetic energy as what the held ones have moved.
+    /// moved aside for it, each by half of what has the same kinetic energy as what one of those has moved.
     fn onto(&mut self, mode: &Mode) -> Result<State<T>, EvaluationError> {
         self.dynamics.set_mode(mode);
         self.moved_onto(self.state.clone()).or_else(|error| {
@@ -211,12 +211,15 @@ impl<T: Scalar> Holding<'_, T> {
             let mass = self.dynamics.mass_matrix();
             let inertia = |j: usize| mass[(j, j)].value();
             let moved = aside.q.iter().zip(&self.reference.q).enumerate();
-            let energy: f64 = moved
-                .map(|(j, (&q, &before))| inertia(j) * (q - before).value().powi(2))
-                .sum();
+            let moved = moved.map(|(j, (&q, &before))| inertia(j).sqrt() * (q - before).value());
+            // Rather to the side to which those are moved: of a parallelogram this is not the crossed one.
+            let most = moved.fold(
+                0.0,
+                |most: f64, by| if by.abs() > most.abs() { by } else { most },
+            );
             for (j, q) in aside.q.iter_mut().enumerate() {
                 if !self.held[0][j] && inertia(j) > 0.0 {
-                    *q += T::from_f64(0.5 * (energy / inertia(j)).sqrt());
+                    *q += T::from_f64(0.5 * most / inertia(j).sqrt());
                 }
             }
             self.moved_onto(aside).map_err(|_| error)
