@@ -162,19 +162,37 @@ impl GuardPolynomials {
         self.list.extend(curves);
     }
 
-    /// The same in a mode that goes on: what may fall below zero still may.
+    /// The same in a mode that goes on: what may fall below zero still may, and what is known of guards over the step at hand is kept. Whether
+    /// others are watched than before.
     pub(super) fn rearm<T: Scalar>(
         &mut self,
         guards: impl Iterator<Item = Guard>,
         mode: &Mode,
         dynamics: &Dynamics<T>,
-    ) {
-        let lowered = self.list.iter().filter(|curve| curve.margin > 0.0);
-        let lowered: Vec<_> = lowered.map(|curve| (curve.guard, curve.margin)).collect();
+    ) -> bool {
+        let before = self.list.clone();
+        let coefficients = core::mem::take(&mut self.coefficients);
         self.arm(guards, mode, dynamics);
-        for (guard, margin) in lowered {
-            self.lower(guard, margin);
+        let width = self.width;
+        self.coefficients.resize(self.list.len() * width, 0.0);
+        let curves = self.coefficients.chunks_exact_mut(width.max(1));
+        for (curve, c) in self.list.iter_mut().zip(curves) {
+            // A guard that is new has no root in this step.
+            c[0] = 1.0;
+            curve.sums = Sums::of(c);
+            let known = before.iter().position(|known| known.guard == curve.guard);
+            if let Some(known) = known {
+                curve.margin = before[known].margin;
+                (curve.sums, curve.stays) = (before[known].sums, before[known].stays);
+                if let Some(own) = coefficients.get(known * width..(known + 1) * width) {
+                    c.copy_from_slice(own);
+                }
+            }
         }
+        let guards = |list: &[GuardPolynomial]| -> Vec<Guard> {
+            list.iter().map(|curve| curve.guard).collect()
+        };
+        guards(&before) != guards(&self.list)
     }
 
     /// The guards of the mode with their polynomials.

@@ -32,13 +32,11 @@ const NEARBY: f64 = 0.5;
 const LAST_TERMS: f64 = 1e-6;
 
 impl<T: Scalar> Run<T> {
-    /// Looks at the forces at the last value of the dynamics, in the mode of the run.
-    pub(super) fn look_at_redundant_forces(&mut self) {
+    /// Looks at the forces at the last value of the dynamics, in the mode of the run; whether other guards decide than before.
+    pub(super) fn look_at_redundant_forces(&mut self) -> bool {
         let was_open = self.switcher.redundant.has_open();
         self.switcher.redundant.follow(&mut self.dynamics);
-        if was_open || self.switcher.redundant.has_open() {
-            self.list_guards();
-        }
+        (was_open || self.switcher.redundant.has_open()) && self.list_guards()
     }
 
     /// How long a step may be for what is looked at within it to tell how undetermined forces change, by the series at hand: their guards do
@@ -80,14 +78,14 @@ impl<T: Scalar> Run<T> {
         self.list_guards();
     }
 
-    /// The guards that decide.
-    pub(super) fn list_guards(&mut self) {
+    /// Lists the guards that decide; whether they are others than before.
+    pub(super) fn list_guards(&mut self) -> bool {
         let watched = self.switcher.table.of(&self.dynamics);
         let redundant = &self.switcher.redundant;
         let single = watched.guards.iter().copied();
         let single = single.filter(|&guard| !redundant.is_open(guard));
         let curves = &mut self.locator.polynomials;
-        curves.rearm(single, &self.now.mode, &self.dynamics);
+        curves.rearm(single, &self.now.mode, &self.dynamics)
     }
 
     /// At part `looked` of a step, its end or just before it, which the dynamics have evaluated, after `corrections` others:
@@ -102,7 +100,7 @@ impl<T: Scalar> Run<T> {
         if !self.dynamics.has_dependent_rows() && !self.switcher.redundant.has_open() {
             return false;
         }
-        self.look_at_redundant_forces();
+        let others = self.look_at_redundant_forces();
         // A step that ends with one too many gets somewhere at least.
         let most = match looked > 0.0 {
             true => MOST_CORRECTIONS,
@@ -119,7 +117,7 @@ impl<T: Scalar> Run<T> {
             .as_ref()
             .map(|composite| self.joint_value(composite));
         let within = looked > 0.0 && self.switcher.redundant.has_open();
-        let mut again = within && self.finds_joints_within(looked);
+        let mut again = within && self.finds_joints_within(looked) || others;
         let fallen = self
             .locator
             .fallen
