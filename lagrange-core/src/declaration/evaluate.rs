@@ -319,6 +319,39 @@ pub fn exponents(
     exponents.into_iter().collect()
 }
 
+/// What some values are divided by, and to which power of it all in all: 6 for (s/x²)³ of x², 12 for s¹²/x¹² of x.
+pub fn denominators(
+    declaration: &Declaration,
+    wanted: impl IntoIterator<Item = usize>,
+) -> Vec<(usize, f64)> {
+    let all = operations(declaration);
+    let needed = needed(&all, wanted);
+    // To which power each value is raised where it is a factor or a term.
+    let mut raised = vec![1.0_f64; all.len()];
+    let mut powers: BTreeMap<usize, f64> = BTreeMap::new();
+    for operation in all.iter().rev().filter(|o| needed[o.value]) {
+        let times = raised[operation.value];
+        let (x, y) = (operation.x, operation.y);
+        match operation.code {
+            op::ADD | op::MULTIPLY | op::SELECT => {
+                raised[x] = raised[x].max(times);
+                raised[y] = raised[y].max(times);
+            }
+            op::POWER => {
+                let exponent = declaration.numbers[y];
+                let times = times * exponent.abs();
+                raised[x] = raised[x].max(times);
+                if exponent < 0.0 {
+                    let known = powers.entry(x).or_default();
+                    *known = known.max(times);
+                }
+            }
+            _ => {}
+        }
+    }
+    powers.into_iter().collect()
+}
+
 /// The functions in some values that grow exponentially.
 pub fn exponentials(
     declaration: &Declaration,

@@ -5,6 +5,9 @@
 //! tells how it goes on. A step ends where an exponent has risen by more than a series can follow; whether what has risen then
 //! matters is seen by the next one. (In tanh and in 1/cosh it is the size of the argument that must not fall.)
 //!
+//! So is what a power is taken of that is divided by: atoms that fly at one another from afar feel nothing of (s/r)¹² until they touch, and a step
+//! over r = 0 sees nothing of it at all. A step ends where the quotient has grown by as much.
+//!
 //! An angle `atan2` that passes its cut jumps by 2π, which its series does not know. Where it has come back at the end of a step nothing there
 //! tells of it: the step ends beyond the cut instead, where accelerations show that they have jumped.
 //!
@@ -13,7 +16,8 @@
 
 use crate::arithmetic::Scalar;
 use crate::declaration::{
-    self, Declaration, Evaluator, Inputs, Worked, angles, exponentials, exponents, roots,
+    self, Declaration, Evaluator, Inputs, Worked, angles, denominators, exponentials, exponents,
+    roots,
 };
 use crate::effects::{Effects, Item};
 use crate::integrate::StepPolynomial;
@@ -27,17 +31,25 @@ const NEGLIGIBLE: f64 = -100.0;
 /// Per order of a method: a rise of the exponent by so much has small terms of higher orders.
 const RISE: f64 = 0.5;
 
+/// A denominator that has fallen to this share of what it was may pass zero: it is known no better, and a quotient that has not been felt until
+/// then, as sin(x)/x, never is.
+const LEAST: f64 = 1e-18;
+
+/// A denominator that changes by less than this share over a step, by its first two rates, is looked at no closer.
+const FAR: f64 = 0.5;
+
 /// Equations of motion, and their series, contain what is declared to powers of about this.
 const RAISED: i32 = 8;
 
 /// A step is looked at in so many pieces.
 const PIECES: usize = 8;
 
-/// The exponents and angles in what acts.
+/// The exponents, denominators, angles and roots in what acts.
 #[derive(Debug)]
 pub(super) struct Hidden {
     evaluator: Evaluator,
     exponents: Vec<Exponent>,
+    denominators: Vec<Denominator>,
     angles: Vec<Angle>,
     roots: Vec<Root>,
     q: Vec<f64>,
@@ -55,6 +67,20 @@ struct Exponent {
     before: Ends,
     /// Up to where the exponent may rise.
     highest: f64,
+}
+
+/// What is divided by.
+#[derive(Debug)]
+struct Denominator {
+    value: usize,
+    /// To which power it is.
+    power: f64,
+    /// The value and its change over a piece, at the beginning of the piece.
+    before: Ends,
+    /// How large it has been at most.
+    largest: f64,
+    /// Down to where its size may fall; none where it is not near zero.
+    lowest: Option<f64>,
 }
 
 /// A value of `atan2`.
@@ -87,23 +113,36 @@ impl Hidden {
     pub(super) fn new<T: Scalar>(system: &Erased<T>, effects: &Effects) -> Option<Self> {
         let (d, declaration) = (system.description(), system.declaration());
         let mut arguments = exponents(declaration, acting(d, declaration, effects));
+        let mut divisors = denominators(declaration, acting(d, declaration, effects));
         let mut values = angles(declaration, acting(d, declaration, effects));
         let mut bases = roots(declaration, acting(d, declaration, effects));
-        if arguments.is_empty() && values.is_empty() && bases.is_empty() {
+        if arguments.is_empty() && divisors.is_empty() && values.is_empty() && bases.is_empty() {
             return None;
         }
-        let wanted = arguments.iter().map(|&(argument, _)| argument);
+        let wanted = arguments.iter().chain(&divisors).map(|&(value, _)| value);
         let wanted = wanted.chain(values.iter().chain(&bases).copied());
         let evaluator = Evaluator::new(declaration, &system.parameters(), wanted);
         let follows = |value: usize| evaluator.moves(value) && !evaluator.is_of_forces(value);
         arguments.retain(|&(argument, _)| follows(argument));
+        divisors.retain(|&(divisor, _)| follows(divisor));
         values.retain(|&value| follows(value));
         bases.retain(|&base| follows(base));
+        let is_empty = arguments.is_empty() && divisors.is_empty();
+        if is_empty && values.is_empty() && bases.is_empty() {
+            return None;
+        }
         let exponents = arguments.iter().map(|&(argument, factor)| Exponent {
             argument,
             factor,
             before: [0.0; 2],
             highest: 0.0,
+        });
+        let denominators = divisors.iter().map(|&(value, power)| Denominator {
+            value,
+            power,
+            before: [0.0; 2],
+            largest: 0.0,
+            lowest: None,
         });
         let angles = values.iter().map(|&value| Angle {
             value,
@@ -117,18 +156,16 @@ impl Hidden {
             corner: None,
         });
         let n = d.coordinates.len();
-        let hidden = Self {
+        Some(Self {
             exponents: exponents.collect(),
+            denominators: denominators.collect(),
             angles: angles.collect(),
             roots: roots.collect(),
             evaluator,
             q: vec![0.0; n],
             v: vec![0.0; n],
             acceleration: vec![0.0; n],
-        };
-        let is_empty =
-            hidden.exponents.is_empty() && hidden.angles.is_empty() && hidden.roots.is_empty();
-        (!is_empty).then_some(hidden)
+        })
     }
 
     /// Whether there are roots among them.
@@ -155,6 +192,16 @@ impl Hidden {
             let size = exponent.before[0].abs();
             exponent.highest = f64::max(-exponent.factor * size, NEGLIGIBLE) + rise;
         }
+        let mut near = false;
+        for divisor in &mut self.denominators {
+            let [rate, bend] = [1, 2].map(|k| self.evaluator.coefficient(divisor.value, k));
+            divisor.before = ends(&self.evaluator, divisor.value);
+            divisor.begin(rise, [rate, bend], end * step.h.value());
+            near |= divisor.lowest.is_some();
+        }
+        if !near && self.exponents.is_empty() && self.angles.is_empty() && self.roots.is_empty() {
+            return end;
+        }
         for angle in &mut self.angles {
             angle.before = ends(&self.evaluator, angle.value);
             (angle.jumps, angle.beyond) = (0.0, None);
@@ -172,6 +219,14 @@ impl Hidden {
                     return f64::max((n - 1) as f64, 0.5) * piece;
                 }
                 exponent.before = after;
+            }
+            for divisor in &mut self.denominators {
+                let after = ends(&self.evaluator, divisor.value);
+                let before = core::mem::replace(&mut divisor.before, after);
+                let lowest = divisor.lowest;
+                if lowest.is_some_and(|lowest| least_size(before, after) < lowest) {
+                    return f64::max((n - 1) as f64, 0.5) * piece;
+                }
             }
             for angle in &mut self.angles {
                 let after = ends(&self.evaluator, angle.value);
@@ -220,6 +275,19 @@ impl Hidden {
     }
 }
 
+impl Denominator {
+    /// Says down to where it may fall over a step that takes `time`, so that the quotient does not grow by more than the exponential of `rise`. Its
+    /// value where the step begins is known, and the coefficients of its series are `rate` and `bend`.
+    fn begin(&mut self, rise: f64, [rate, bend]: [f64; 2], time: f64) {
+        let size = self.before[0].abs();
+        self.largest = self.largest.max(size);
+        let change = time * (rate.abs() + 2.0 * time * bend.abs());
+        let lowest = size * (-rise / self.power).exp();
+        let is_near = change >= FAR * size && lowest > LEAST * self.largest;
+        self.lowest = is_near.then_some(lowest);
+    }
+}
+
 /// Whether accelerations may jump where no branch says so.
 pub(super) fn may_jump<T: Scalar>(system: &Erased<T>, effects: &Effects) -> bool {
     let (d, declaration) = (system.description(), system.declaration());
@@ -259,13 +327,19 @@ pub(super) fn overflow<T: Scalar>(
     })
 }
 
-/// Least |z| of the cubic with these values and changes at both ends of a piece.
+/// Least |z| of the cubic with these values and changes at both ends of a piece, or of what is bent in between as |s| is, up to where its tangents
+/// meet.
 fn least_size(before: Ends, after: Ends) -> f64 {
-    let ([first, _], [last, _]) = (before, after);
+    let ([first, falls], [last, rises]) = (before, after);
     if first * last <= 0.0 {
         return 0.0;
     }
-    let least = first.abs().min(last.abs());
+    let side = first.signum();
+    let mut least = first.abs().min(last.abs());
+    if side * falls < 0.0 && side * rises > 0.0 {
+        let meet = (last - rises - first) / (falls - rises);
+        least = least.min((side * (first + falls * meet)).max(0.0));
+    }
     extremes(before, after).fold(least, |least, (_, z)| match z * first <= 0.0 {
         true => 0.0,
         false => least.min(z.abs()),
@@ -380,8 +454,9 @@ mod tests {
 
     #[test]
     fn least_sizes_of_cubics_are_found_between_the_ends() {
-        // (s − ½)² + 1, by its values and slopes at 0 and 1.
-        assert_eq!(least_size([1.25, -1.0], [1.25, 1.0]), 1.0);
+        // (s − ½)² + 1 and |s − ½| + 1, by their values and slopes at 0 and 1: both are 3/4 or more.
+        assert_eq!(least_size([1.25, -1.0], [1.25, 1.0]), 0.75);
+        assert_eq!(least_size([1.5, -1.0], [1.5, 1.0]), 1.0);
         // −2 + s, s − ½, and 1 − 6s + 6s², which is negative in the middle.
         assert_eq!(least_size([-2.0, 1.0], [-1.0, 1.0]), 1.0);
         assert_eq!(least_size([-0.5, 1.0], [0.5, 1.0]), 0.0);
