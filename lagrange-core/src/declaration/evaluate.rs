@@ -319,37 +319,41 @@ pub fn exponents(
     exponents.into_iter().collect()
 }
 
-/// What some values are divided by, and to which power of it all in all: 6 for (s/x²)³ of x², 12 for s¹²/x¹² of x.
-pub fn denominators(
+/// The bases of powers in some values, with the power to which each is a factor all in all: −12 for (s/x)¹² of x, and of (1 + cos t)⁴⁰ the sum with 40.
+pub fn powers(
     declaration: &Declaration,
     wanted: impl IntoIterator<Item = usize>,
 ) -> Vec<(usize, f64)> {
     let all = operations(declaration);
     let needed = needed(&all, wanted);
-    // To which power each value is raised where it is a factor or a term.
+    // To which power each value is raised where it is a factor.
     let mut raised = vec![1.0_f64; all.len()];
-    let mut powers: BTreeMap<usize, f64> = BTreeMap::new();
+    let mut powers: BTreeMap<(usize, bool), f64> = BTreeMap::new();
     for operation in all.iter().rev().filter(|o| needed[o.value]) {
-        let times = raised[operation.value];
-        let (x, y) = (operation.x, operation.y);
+        let (times, x) = (raised[operation.value], operation.x);
+        let mut raise = |value: usize, times: f64| {
+            if times.abs() > raised[value].abs() {
+                raised[value] = times;
+            }
+        };
         match operation.code {
-            op::ADD | op::MULTIPLY | op::SELECT => {
-                raised[x] = raised[x].max(times);
-                raised[y] = raised[y].max(times);
+            op::MULTIPLY => {
+                raise(x, times);
+                raise(operation.y, times);
             }
             op::POWER => {
-                let exponent = declaration.numbers[y];
-                let times = times * exponent.abs();
-                raised[x] = raised[x].max(times);
-                if exponent < 0.0 {
-                    let known = powers.entry(x).or_default();
-                    *known = known.max(times);
+                let times = times * declaration.numbers[operation.y];
+                raise(x, times);
+                let known = powers.entry((x, times < 0.0)).or_default();
+                if times.abs() > known.abs() {
+                    *known = times;
                 }
             }
             _ => {}
         }
     }
-    powers.into_iter().collect()
+    let powers = powers.into_iter();
+    powers.map(|((base, _), power)| (base, power)).collect()
 }
 
 /// The functions in some values that grow exponentially.

@@ -16,8 +16,8 @@ mod tests;
 
 pub use draw::{Draw, Form, Turn};
 pub use evaluate::{
-    Evaluator, Gradient, Inputs, Seed, Sum, angles, denominators, exponentials, exponents,
-    may_jump, reads_time, roots,
+    Evaluator, Gradient, Inputs, Seed, Sum, angles, exponentials, exponents, may_jump, powers,
+    reads_time, roots,
 };
 pub use interval::Interval;
 pub use real::Real;

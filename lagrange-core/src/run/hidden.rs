@@ -5,8 +5,8 @@
 //! tells how it goes on. A step ends where an exponent has risen by more than a series can follow; whether what has risen then
 //! matters is seen by the next one. (In tanh and in 1/cosh it is the size of the argument that must not fall.)
 //!
-//! So is what a power is taken of that is divided by: atoms that fly at one another from afar feel nothing of (s/r)¹² until they touch, and a step
-//! over r = 0 sees nothing of it at all. A step ends where the quotient has grown by as much.
+//! So with a power, whose exponent is n ln|x|: atoms that fly at one another from afar feel nothing of (s/r)¹² until they touch, and a step over
+//! r = 0 sees nothing of it at all; and sin⁴⁰t is nothing where it begins.
 //!
 //! An angle `atan2` that passes its cut jumps by 2π, which its series does not know. Where it has come back at the end of a step nothing there
 //! tells of it: the step ends beyond the cut instead, where accelerations show that they have jumped.
@@ -16,8 +16,7 @@
 
 use crate::arithmetic::Scalar;
 use crate::declaration::{
-    self, Declaration, Evaluator, Inputs, Worked, angles, denominators, exponentials, exponents,
-    roots,
+    self, Declaration, Evaluator, Inputs, Worked, angles, exponentials, exponents, powers, roots,
 };
 use crate::effects::{Effects, Item};
 use crate::integrate::StepPolynomial;
@@ -31,12 +30,15 @@ const NEGLIGIBLE: f64 = -100.0;
 /// Per order of a method: a rise of the exponent by so much has small terms of higher orders.
 const RISE: f64 = 0.5;
 
-/// A denominator that has fallen to this share of what it was may pass zero: it is known no better, and a quotient that has not been felt until
+/// What is divided by and has fallen to this share of what it was may pass zero: it is known no better, and a quotient that has not been felt until
 /// then, as sin(x)/x, never is.
 const LEAST: f64 = 1e-18;
 
-/// A denominator that changes by less than this share over a step, by its first two rates, is looked at no closer.
+/// What is divided by and changes by less than this share over a step, by its first two rates, is looked at no closer.
 const FAR: f64 = 0.5;
+
+/// Lower powers grow by no more than a series of a loose tolerance follows.
+const HIGH: f64 = 8.0;
 
 /// Equations of motion, and their series, contain what is declared to powers of about this.
 const RAISED: i32 = 8;
@@ -44,12 +46,12 @@ const RAISED: i32 = 8;
 /// A step is looked at in so many pieces.
 const PIECES: usize = 8;
 
-/// The exponents, denominators, angles and roots in what acts.
+/// The exponents, powers, angles and roots in what acts.
 #[derive(Debug)]
 pub(super) struct Hidden {
     evaluator: Evaluator,
     exponents: Vec<Exponent>,
-    denominators: Vec<Denominator>,
+    powers: Vec<Power>,
     angles: Vec<Angle>,
     roots: Vec<Root>,
     q: Vec<f64>,
@@ -69,18 +71,18 @@ struct Exponent {
     highest: f64,
 }
 
-/// What is divided by.
+/// A power of something.
 #[derive(Debug)]
-struct Denominator {
-    value: usize,
-    /// To which power it is.
-    power: f64,
-    /// The value and its change over a piece, at the beginning of the piece.
+struct Power {
+    base: usize,
+    /// Its exponent, negative for what is divided by.
+    exponent: f64,
+    /// The base and its change over a piece, at the beginning of the piece.
     before: Ends,
-    /// How large it has been at most.
+    /// How large the base has been at most.
     largest: f64,
-    /// Down to where its size may fall; none where it is not near zero.
-    lowest: Option<f64>,
+    /// The size of the base down to which, or up to which, it may go; none where it does not come there.
+    border: Option<f64>,
 }
 
 /// A value of `atan2`.
@@ -113,21 +115,22 @@ impl Hidden {
     pub(super) fn new<T: Scalar>(system: &Erased<T>, effects: &Effects) -> Option<Self> {
         let (d, declaration) = (system.description(), system.declaration());
         let mut arguments = exponents(declaration, acting(d, declaration, effects));
-        let mut divisors = denominators(declaration, acting(d, declaration, effects));
+        let mut raised = powers(declaration, acting(d, declaration, effects));
+        raised.retain(|&(_, exponent)| !(0.0..HIGH).contains(&exponent));
         let mut values = angles(declaration, acting(d, declaration, effects));
         let mut bases = roots(declaration, acting(d, declaration, effects));
-        if arguments.is_empty() && divisors.is_empty() && values.is_empty() && bases.is_empty() {
+        if arguments.is_empty() && raised.is_empty() && values.is_empty() && bases.is_empty() {
             return None;
         }
-        let wanted = arguments.iter().chain(&divisors).map(|&(value, _)| value);
+        let wanted = arguments.iter().chain(&raised).map(|&(value, _)| value);
         let wanted = wanted.chain(values.iter().chain(&bases).copied());
         let evaluator = Evaluator::new(declaration, &system.parameters(), wanted);
         let follows = |value: usize| evaluator.moves(value) && !evaluator.is_of_forces(value);
         arguments.retain(|&(argument, _)| follows(argument));
-        divisors.retain(|&(divisor, _)| follows(divisor));
+        raised.retain(|&(base, _)| follows(base));
         values.retain(|&value| follows(value));
         bases.retain(|&base| follows(base));
-        let is_empty = arguments.is_empty() && divisors.is_empty();
+        let is_empty = arguments.is_empty() && raised.is_empty();
         if is_empty && values.is_empty() && bases.is_empty() {
             return None;
         }
@@ -137,12 +140,12 @@ impl Hidden {
             before: [0.0; 2],
             highest: 0.0,
         });
-        let denominators = divisors.iter().map(|&(value, power)| Denominator {
-            value,
-            power,
+        let powers = raised.iter().map(|&(base, exponent)| Power {
+            base,
+            exponent,
             before: [0.0; 2],
             largest: 0.0,
-            lowest: None,
+            border: None,
         });
         let angles = values.iter().map(|&value| Angle {
             value,
@@ -158,7 +161,7 @@ impl Hidden {
         let n = d.coordinates.len();
         Some(Self {
             exponents: exponents.collect(),
-            denominators: denominators.collect(),
+            powers: powers.collect(),
             angles: angles.collect(),
             roots: roots.collect(),
             evaluator,
@@ -193,11 +196,11 @@ impl Hidden {
             exponent.highest = f64::max(-exponent.factor * size, NEGLIGIBLE) + rise;
         }
         let mut near = false;
-        for divisor in &mut self.denominators {
-            let [rate, bend] = [1, 2].map(|k| self.evaluator.coefficient(divisor.value, k));
-            divisor.before = ends(&self.evaluator, divisor.value);
-            divisor.begin(rise, [rate, bend], end * step.h.value());
-            near |= divisor.lowest.is_some();
+        for power in &mut self.powers {
+            let [rate, bend] = [1, 2].map(|k| self.evaluator.coefficient(power.base, k));
+            power.before = ends(&self.evaluator, power.base);
+            power.begin(rise, [rate, bend], end * step.h.value());
+            near |= power.border.is_some();
         }
         if !near && self.exponents.is_empty() && self.angles.is_empty() && self.roots.is_empty() {
             return end;
@@ -220,11 +223,10 @@ impl Hidden {
                 }
                 exponent.before = after;
             }
-            for divisor in &mut self.denominators {
-                let after = ends(&self.evaluator, divisor.value);
-                let before = core::mem::replace(&mut divisor.before, after);
-                let lowest = divisor.lowest;
-                if lowest.is_some_and(|lowest| least_size(before, after) < lowest) {
+            for power in &mut self.powers {
+                let after = ends(&self.evaluator, power.base);
+                let before = core::mem::replace(&mut power.before, after);
+                if power.passes_border(before, after) {
                     return f64::max((n - 1) as f64, 0.5) * piece;
                 }
             }
@@ -275,16 +277,37 @@ impl Hidden {
     }
 }
 
-impl Denominator {
-    /// Says down to where it may fall over a step that takes `time`, so that the quotient does not grow by more than the exponential of `rise`. Its
-    /// value where the step begins is known, and the coefficients of its series are `rate` and `bend`.
+impl Power {
+    /// Says where its base may go over a step that takes `time`, so that the power does not grow by more than the exponential of `rise`. The base is
+    /// known where the step begins, and the coefficients of its series are `rate` and `bend`.
     fn begin(&mut self, rise: f64, [rate, bend]: [f64; 2], time: f64) {
         let size = self.before[0].abs();
         self.largest = self.largest.max(size);
         let change = time * (rate.abs() + 2.0 * time * bend.abs());
-        let lowest = size * (-rise / self.power).exp();
-        let is_near = change >= FAR * size && lowest > LEAST * self.largest;
-        self.lowest = is_near.then_some(lowest);
+        let n = self.exponent;
+        self.border = match n < 0.0 {
+            true => {
+                let lowest = size * (rise / n).exp();
+                (change >= FAR * size && lowest > LEAST * self.largest).then_some(lowest)
+            }
+            false => {
+                let scale = if self.largest > 0.0 {
+                    self.largest
+                } else {
+                    1.0
+                };
+                let highest = size.max(scale * (NEGLIGIBLE / n).exp()) * (rise / n).exp();
+                (size + change > highest).then_some(highest)
+            }
+        };
+    }
+
+    /// Whether the base goes where it must not in a piece with these ends.
+    fn passes_border(&self, before: Ends, after: Ends) -> bool {
+        self.border.is_some_and(|border| match self.exponent < 0.0 {
+            true => least_size(before, after) < border,
+            false => largest_size(before, after) > border,
+        })
     }
 }
 
@@ -344,6 +367,12 @@ fn least_size(before: Ends, after: Ends) -> f64 {
         true => 0.0,
         false => least.min(z.abs()),
     })
+}
+
+/// Largest |z| of the cubic with these values and changes at both ends of a piece.
+fn largest_size(before: Ends, after: Ends) -> f64 {
+    let largest = before[0].abs().max(after[0].abs());
+    extremes(before, after).fold(largest, |largest, (_, z)| largest.max(z.abs()))
 }
 
 /// A root and its change, by those of what is under it.

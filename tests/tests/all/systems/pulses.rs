@@ -3,7 +3,7 @@
 use super::{PI, state};
 use lagrange_core::prelude::*;
 use lagrange_tests::fuzz::METHODS;
-use lagrange_tests::{agree, certified, run_by, times};
+use lagrange_tests::{agree, certified, run_by, runge_kutta, times};
 
 /// A motion in one coordinate from a position and a velocity.
 fn moved(
@@ -352,5 +352,120 @@ fn a_small_force_that_friction_carries_is_exact() {
         let force = run.sampler().at(until).expect("the end").force(Bead::WIRE);
         let expected = -12.0 * (1.3 * until).sin().powi(8);
         agree(method, force / expected, 1.0, 1e-12);
+    }
+}
+
+/// Two atoms that fly at one another, by the distance between them.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(r),
+    kinetic = der(r)^2/2,
+    potential = 4*depth*((size/r)^12 - (size/r)^6),
+)]
+struct Atoms {
+    depth: f64,
+    size: f64,
+}
+
+/// They feel nothing of one another until they touch, and nothing again beyond the pole: a step may not pass it.
+#[test]
+fn atoms_do_not_pass_through_one_another() {
+    // In units of the size: how long it takes from 50 to the turn and back again.
+    let slope = |_: f64, [r, v]: [f64; 2]| [v, 24.0 * (2.0 * r.powi(-13) - r.powi(-7))];
+    let (mut t, mut y) = (0.0, [50.0, -1.0]);
+    while y[0] < 50.0 || y[1] < 0.0 {
+        let h = if y[0] > 5.0 { 1e-3 } else { 1e-5 };
+        y = runge_kutta(slope, (t, y), h);
+        t += h;
+    }
+    let turned = t - (y[0] - 50.0) / y[1];
+    for size in [1e-2, 3e-3, 1e-4] {
+        let atoms = Atoms { depth: 1.0, size };
+        let expected = 3.0 + size * (100.0 - turned);
+        for method in METHODS {
+            for tolerance in [1e-6, 1e-9] {
+                let simulation = Simulation::new(&atoms).method(method).tolerance(tolerance);
+                let found = simulation.run(state(&[3.0], &[-1.0]), 0.0..6.0);
+                let found = found.expect("runs");
+                let far = (found.final_state().q[0] - expected).abs();
+                assert!(
+                    far < 1e3 * tolerance + 1e-7,
+                    "{method:?} {tolerance:e} {size}: {far:e}"
+                );
+            }
+        }
+    }
+}
+
+/// A body that runs against a hill V s²/(s² + x²).
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2/2,
+    potential = height * width^2 / (width^2 + x^2),
+    force(knock: x = blow/pi * width / (width^2 + (t - 15)^2)),
+)]
+struct Thorn {
+    height: f64,
+    width: f64,
+    blow: f64,
+}
+
+/// It is thrown back by what is too narrow to be seen from where it comes, and pushed by a moment: a knock beyond its tails of 1/t² gives all its momentum.
+#[test]
+fn quotients_are_followed_however_narrow_they_are() {
+    for width in [1e-4, 1e-6, 1e-8] {
+        let thorn = Thorn {
+            height: 0.6,
+            width,
+            blow: 0.5,
+        };
+        for method in METHODS {
+            for tolerance in [1e-6, 1e-9] {
+                let simulation = Simulation::new(&thorn).method(method).tolerance(tolerance);
+                let found = simulation.run(state(&[-5.0], &[1.0]), 0.0..20.0);
+                let v = found.expect("runs").final_state().v[0];
+                let far = (v + 0.5).abs();
+                assert!(
+                    far < 1e3 * tolerance + width,
+                    "{method:?} {tolerance:e} {width}: {v}"
+                );
+            }
+        }
+    }
+}
+
+/// A charge that passes a screened one: the distance has a kink there, all but.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    define(r = norm([x - 3, y])),
+    kinetic = (der(x)^2 + der(y)^2)/2,
+    potential = height * size/r * exp(-r/size),
+)]
+struct Screened {
+    height: f64,
+    size: f64,
+}
+
+/// It is deflected: angular momentum and energy are kept, and the methods agree.
+#[test]
+fn what_is_screened_deflects_what_meets_it() {
+    let scene = Screened {
+        height: 0.6,
+        size: 1e-3,
+    };
+    let ends = METHODS.map(|method| {
+        let simulation = Simulation::new(&scene).method(method).tolerance(1e-9);
+        let run = simulation.run(state(&[0.0, 1e-3], &[1.0, 0.0]), 0.0..6.0);
+        let end = run.expect("runs").final_state().clone();
+        let (q, v) = (&end.q, &end.v);
+        agree("energy", v[0].hypot(v[1]), 1.0, 1e-7);
+        agree("momentum", (q[0] - 3.0) * v[1] - q[1] * v[0], -1e-3, 1e-7);
+        end
+    });
+    for end in &ends {
+        assert!(end.v[1] > 0.4, "{end:?}");
+        agree("deflected", end.q[1], ends[0].q[1], 1e-5);
     }
 }
