@@ -135,11 +135,7 @@ impl<T: Runnable> Work<T> {
         outcome?;
         let (mut factor, mut best, mut stays) = (TIGHTER, f64::INFINITY, 0);
         loop {
-            let inexact = |reason| Error::Inexact {
-                asked: error,
-                possible: best / SHARE,
-                reason,
-            };
+            let mut possible = best / SHARE;
             let finer = settings.finer::<T>(factor);
             let finest = finer.is_as_fine_as(&settings);
             if finest && stays < PATIENCE {
@@ -149,11 +145,19 @@ impl<T: Runnable> Work<T> {
                 let difference = near.difference(self);
                 let apart = difference.error();
                 // It is more exact than that, for as long as differences fall.
-                if outcome.is_ok() && apart <= error && apart * FALLS <= best {
+                if outcome.is_ok() && apart * FALLS <= best {
                     self.trajectory.estimate = Some(looser.estimate(difference));
-                    return Ok(());
+                    if apart <= error {
+                        return Ok(());
+                    }
+                    possible = apart;
                 }
             }
+            let inexact = |reason| Error::Inexact {
+                asked: error,
+                possible,
+                reason,
+            };
             if finest || stays == PATIENCE {
                 let estimate = self.trajectory.estimate();
                 let reason = estimate.map(|Estimate { difference, .. }| {
@@ -233,5 +237,5 @@ fn of_tolerance(error: f64, settings: &Settings) -> String {
         _ => "the default method, `auto`, goes further",
     };
     let tightest = settings.tolerance;
-    format!("{error:.1e} at the tightest tolerance that this method has, {tightest:.1e}; {help}")
+    format!("{error:.1e} at {tightest:.1e}, the tightest tolerance that is tried; {help}")
 }

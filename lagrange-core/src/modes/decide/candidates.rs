@@ -89,11 +89,11 @@ impl Facts {
     }
 }
 
-/// What is preferred has the lower rank: frictions that hold, closed contacts, the present mode, few changes. What holds comes before what
-/// is closed: a cupboard that its friction holds tips over its edge, although it could stand on both feet if these slid, μk < μs.
+/// What is preferred has the lower rank: frictions that hold, closed contacts, the present mode, few changes, and that what has been overcome lets go.
+/// What holds comes before what is closed: a cupboard that its friction holds tips over its edge, although it could stand on both feet if these slid, μk < μs.
 fn rank(mode: &Mode, here: SwitchContext<'_, impl Copy>) -> u128 {
     /// Bits of each criterion.
-    const BITS: u32 = 24;
+    const BITS: u32 = 20;
     let SwitchContext { present, facts, .. } = here;
     let closed = mode.contacts.iter().filter(|c| **c).count();
     // Frictions that could together hold no longer go together, if they can.
@@ -107,19 +107,17 @@ fn rank(mode: &Mode, here: SwitchContext<'_, impl Copy>) -> u128 {
         }
         _ => false,
     };
-    let left_behind = match composite {
-        true => facts.located.iter().filter(holds).count(),
-        false => 0,
-    };
+    let left_behind = facts.located.iter().filter(holds).count();
     let changes = changes(mode, present);
     let differs = changes > 0 || mode.branches != present.branches;
     let most = (1 << BITS) - 1;
     let criteria = [
-        left_behind,
+        if composite { left_behind } else { 0 },
         most - sticks(mode),
         most - closed,
         usize::from(differs),
         changes,
+        left_behind,
     ];
     let append = |rank, criterion| rank << BITS | criterion as u128;
     criteria.into_iter().fold(0, append)

@@ -140,7 +140,8 @@ impl<T: Scalar> Decider<T> {
     /// Finds the mode in which the motion goes on, into [`Self::decision`].
     ///
     /// On success `dynamics` is left in that mode. Where a few modes are possible all are looked at; the order of preference among
-    /// feasible ones is: stick before slip, closed before open, then the present mode, then the fewest changes. Where they are many, see
+    /// feasible ones is: stick before slip, closed before open, then the present mode, then the fewest changes, then that what has been overcome lets
+    /// go. Where they are many, see
     /// [`pivot`], and where there is none, [`together`].
     ///
     /// # Errors
