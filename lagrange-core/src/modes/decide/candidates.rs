@@ -38,6 +38,8 @@ pub struct Candidates {
     modes: Pool<Mode>,
     /// Rank and place of each.
     order: Vec<(u128, usize)>,
+    /// The guards of frictions that had been overcome when they were put in order.
+    overcome: Vec<Guard>,
 }
 
 impl Candidates {
@@ -46,8 +48,21 @@ impl Candidates {
         self.order.iter().map(|&(_, index)| &self.modes[index])
     }
 
-    /// Puts the modes in order.
+    /// Puts the modes in order, unless they are in that which these guards ask for.
     fn sort(&mut self, here: SwitchContext<'_, impl Copy>) {
+        let overcome = here.facts.located.iter().copied().filter(|guard| {
+            matches!(
+                guard,
+                Guard::StickUpper(_) | Guard::StickLower(_) | Guard::StickCone(_)
+            )
+        });
+        if self.order.len() == self.modes.len()
+            && overcome.clone().eq(self.overcome.iter().copied())
+        {
+            return;
+        }
+        self.overcome.clear();
+        self.overcome.extend(overcome);
         self.order.clear();
         let ranks = self.modes.iter().map(|mode| rank(mode, here));
         self.order.extend(ranks.zip(0..));
@@ -150,6 +165,7 @@ impl Listings {
             let list = &mut self.facts[self.oldest];
             list.facts = None;
             list.modes.clear();
+            list.order.clear();
             let mut listing = Listing {
                 choices,
                 out: &mut list.modes,
@@ -157,13 +173,15 @@ impl Listings {
             scratch.clone_from(here.present);
             listing.contacts(scratch, 0);
             if list.modes.len() <= MOST_CANDIDATES {
-                list.sort(here);
                 list.facts = follows.then(|| Facts::of(here, &self.fading));
             }
             self.oldest
         });
-        let list = &self.facts[index];
-        (list.modes.len() <= MOST_CANDIDATES).then_some(list)
+        let list = &mut self.facts[index];
+        (list.modes.len() <= MOST_CANDIDATES).then(|| {
+            list.sort(here);
+            &*list
+        })
     }
 }
 
