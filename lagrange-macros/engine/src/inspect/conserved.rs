@@ -186,8 +186,16 @@ impl Work<'_> {
                 takers.push(format!("{} moves", name.text));
             }
         }
-        let frictions = system.frictions.iter();
-        takers.extend(frictions.map(|f| format!("{} slips", f.name.text)));
+        // What moves as it is told carries along what sticks to it.
+        let moves = |f: usize| {
+            let mut rows = system.slip_rows(f);
+            rows.any(|row| self.equations.structure.rows[row].rheonomic)
+        };
+        let frictions = system.frictions.iter().enumerate();
+        takers.extend(frictions.map(|(f, friction)| {
+            let does = if moves(f) { "acts" } else { "slips" };
+            format!("{} {does}", friction.name.text)
+        }));
         if !system.contacts.is_empty() {
             takers.push("an impact takes some".to_owned());
         }

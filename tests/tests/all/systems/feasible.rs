@@ -1,7 +1,8 @@
 //! All modes in which a state can go on, with their forces.
 
+use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::agree;
+use lagrange_tests::{agree, event, run_by};
 
 const G: f64 = 9.81;
 
@@ -195,4 +196,37 @@ fn what_is_no_state_is_refused() {
         matches!(refused, Err(Error::Penetrates { .. })),
         "{refused:?}"
     );
+}
+
+/// Two blocks, one on the other, of which the upper one is pulled more and more; the frictions in both orders.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, u, y, w),
+    kinetic = (der(x)^2 + der(u)^2 + der(y)^2 + der(w)^2)/2,
+    force(pull: u = rate * t),
+    force(other_pull: w = rate * t),
+    friction(floor: slip = der(x), limit = (10, 9)),
+    friction(between: slip = der(u) - der(x), limit = (12, 8)),
+    friction(other_between: slip = der(w) - der(y), limit = (12, 8)),
+    friction(other_floor: slip = der(y), limit = (10, 9)),
+)]
+struct Stacks {
+    rate: f64,
+}
+
+/// At 10 N both frictions could slip alone, μₖ < μₛ: it is the one that has been overcome, whatever the order of declaration.
+#[test]
+fn what_has_been_overcome_lets_go() {
+    let stacks = Stacks { rate: 1.0 };
+    for method in ["taylor", "dop853", "radau5"] {
+        let start = state(&[0.0; 4], &[0.0; 4]);
+        let motion = run_by(&stacks, (method, 1e-9), start, 12.0);
+        for floor in ["floor", "other_floor"] {
+            agree(method, event(&motion, floor, "slips").time, 10.0, 1e-8);
+        }
+        // Two masses that are pulled with t − 9 for two seconds.
+        for speed in &motion.final_state().v {
+            agree(method, *speed, (22.0 - 18.0) / 2.0, 1e-8);
+        }
+    }
 }

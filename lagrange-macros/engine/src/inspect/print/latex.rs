@@ -203,7 +203,7 @@ impl Notation for Latex {
     }
 
     fn list(&self, elements: &[String]) -> String {
-        parentheses(&elements.join(", \\penalty0 "))
+        parentheses(&elements.join(", "))
     }
 
     fn element(&self, base: &str, index: &str) -> String {

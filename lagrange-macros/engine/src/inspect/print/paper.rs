@@ -39,8 +39,8 @@ fn line(pieces: &[Piece]) -> String {
         .iter()
         .map(|piece| match piece {
             Piece::Words(text) => words(text),
-            Piece::Formula(f) => format!("${}$", latex::formula(f)),
-            Piece::Statement(s) => format!("${}$", latex::statement(s)),
+            Piece::Formula(f) => format!("${}$", breakable(&latex::formula(f))),
+            Piece::Statement(s) => format!("${}$", breakable(&latex::statement(s))),
         })
         .collect()
 }
@@ -67,6 +67,7 @@ fn words(text: &str) -> String {
             (_, '²') => out.push_str("$^2$"),
             (_, '³') => out.push_str("$^3$"),
             (_, '₀'..='₉') => out.push_str(&format!("$_{}$", c as u32 - '₀' as u32)),
+            (_, '∂') => out.push_str("$\\partial$"),
             (_, '√') => out.push_str("$\\surd$"),
             (_, '≥') => out.push_str("$\\ge$"),
             (_, '≤') => out.push_str("$\\le$"),
@@ -92,6 +93,11 @@ fn words(text: &str) -> String {
             text
         })
         .collect()
+}
+
+/// A formula whose lists may end a line after each comma. (Browsers that show TeX do not know the command.)
+fn breakable(formula: &str) -> String {
+    formula.replace(", ", ", \\penalty0 ")
 }
 
 fn table(rows: &[Vec<Vec<Piece>>], out: &mut String) {
@@ -161,7 +167,10 @@ fn paragraph(text: &str, out: &mut String) {
 
 fn equations(equations: &[(Vec<Piece>, Statement)], out: &mut String) {
     for (label, statement) in equations {
-        let said = format!("$\\displaystyle {}$", latex::statement(statement));
+        let said = format!(
+            "$\\displaystyle {}$",
+            breakable(&latex::statement(statement))
+        );
         match label.is_empty() {
             true => paragraph(&said, out),
             false => paragraph(&format!("{said}\\quad({})", line(label)), out),
