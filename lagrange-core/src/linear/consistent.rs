@@ -66,50 +66,6 @@ impl<T: Scalar> Equilibrated<T> {
     }
 }
 
-/// A dense system that may have dependent rows, solved for several right-hand sides.
-pub(crate) struct SeveralSides {
-    row_scale: Vec<f64>,
-    column_scale: Vec<f64>,
-    lu: Lu<f64>,
-}
-
-impl SeveralSides {
-    /// Factors a row-major matrix.
-    pub(crate) fn new(mut matrix: Vec<f64>, size: usize) -> Self {
-        let inverse = |largest: f64| if largest > 0.0 { 1.0 / largest } else { 1.0 };
-        let mut row_scale = vec![1.0; size];
-        let mut column_scale = vec![1.0; size];
-        for (row, scale) in matrix.chunks_exact_mut(size.max(1)).zip(&mut row_scale) {
-            *scale = inverse(row.iter().fold(0.0, |m: f64, x| m.max(x.abs())));
-            row.iter_mut().for_each(|x| *x *= *scale);
-        }
-        for (j, scale) in column_scale.iter_mut().enumerate() {
-            let column = (0..size).map(|i| matrix[i * size + j].abs());
-            *scale = inverse(column.fold(0.0, f64::max));
-            (0..size).for_each(|i| matrix[i * size + j] *= *scale);
-        }
-        let mut lu = Lu::default();
-        lu.factor(size, |i, row| {
-            row.copy_from_slice(&matrix[i * size..][..size])
-        });
-        Self {
-            row_scale,
-            column_scale,
-            lu,
-        }
-    }
-
-    /// x for a right-hand side; superfluous unknowns are 0. Nothing if the system contradicts itself.
-    pub(crate) fn solve(&mut self, mut b: Vec<f64>) -> Option<Vec<f64>> {
-        let scale = |x: &mut [f64], by: &[f64]| x.iter_mut().zip(by).for_each(|(x, s)| *x *= s);
-        scale(&mut b, &self.row_scale);
-        let size_of_b = b.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        let left_out = self.lu.solve_part(&mut b);
-        scale(&mut b, &self.column_scale);
-        (left_out <= 1e-9 * size_of_b && b.iter().all(|x| x.is_finite())).then_some(b)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::Equilibrated;

@@ -30,7 +30,7 @@ mod tests;
 pub(crate) use bounded::{ForceBounds, Linear};
 pub(crate) use collect::{acting, acts};
 pub(crate) use conic::{Cone, ConicPoint};
-pub(crate) use consistent::{Equilibrated, SeveralSides};
+pub(crate) use consistent::Equilibrated;
 pub(crate) use least_norm::{Freedom, least_norm};
 pub(crate) use lemke::{Lemke, Outcome as LemkeOutcome};
 pub(crate) use lu::dot;

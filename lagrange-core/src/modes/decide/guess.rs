@@ -20,7 +20,7 @@ use super::candidates::{Choices, slide};
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::effects::Item;
-use crate::linear::{Lemke, LemkeOutcome, SeveralSides};
+use crate::linear::{Equilibrated, Lemke, LemkeOutcome};
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::modes::facts::{SwitchContext, SwitchFacts};
 use crate::system::{Normal, ValueRef};
@@ -199,8 +199,10 @@ fn responses<T: Scalar>(
         }
         free[n + k] = -number(d.rows[row].bias);
     }
-    let mut solver = SeveralSides::new(matrix, size);
-    let free = solver.solve(free)?;
+    let mut factors = Equilibrated::default();
+    factors.factor(&mut matrix, size);
+    let mut solve = |mut b: Vec<f64>| factors.solve(&mut b).then_some(b);
+    let free = solve(free)?;
     let accelerate = |row: usize, motion: &[f64]| -> f64 {
         let terms = d.rows[row].jacobian.iter();
         terms.map(|&(j, place)| number(place) * motion[j]).sum()
@@ -210,7 +212,7 @@ fn responses<T: Scalar>(
     for (k, candidate) in candidates.iter().enumerate() {
         let mut side = candidate.force.clone();
         side.resize(size, 0.0);
-        let motion = solver.solve(side)?;
+        let motion = solve(side)?;
         for (i, other) in candidates.iter().enumerate() {
             g[i * count + k] = accelerate(other.row, &motion);
         }
