@@ -130,8 +130,8 @@ fn source(d: &Description, declaration: &Declaration, row: usize) -> (usize, Lev
     if let Some(c) = d.contacts.iter().position(|c| c.row == row) {
         return (declaration.contacts[c].gap, Level::Position);
     }
-    let on = |f: &crate::system::Friction| (f.row..f.row + f.components).contains(&row);
-    let f = d.frictions.iter().position(on).unwrap_or(0);
+    let f = d.frictions.iter().position(|f| f.rows().contains(&row));
+    let f = f.unwrap_or(0);
     let slip = declaration.frictions[f].slip;
     (slip[row - d.frictions[f].row], Level::Velocity)
 }
@@ -676,10 +676,9 @@ impl Equations {
         if let Some(c) = d.contacts.iter().position(|c| c.row == row) {
             return mode.contacts[c];
         }
-        let on = |f: &crate::system::Friction| (f.row..f.row + f.components).contains(&row);
         d.frictions
             .iter()
-            .position(on)
+            .position(|f| f.rows().contains(&row))
             .is_some_and(|f| self.friction_acts(f, mode))
     }
 

@@ -111,7 +111,7 @@ impl<T: Scalar> Examination<'_, T> {
             let Normal::Contact(c) = friction.normal else {
                 continue;
             };
-            let rows = friction.row..friction.row + friction.components;
+            let rows = friction.rows();
             let tangential = &impulses[rows.clone()];
             if !(equations.includes(Item::Friction(f)) && touches[c]) {
                 findings.book(Subject::Idle, length(tangential), 1.0, time, friction.name);

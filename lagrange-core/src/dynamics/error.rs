@@ -61,10 +61,7 @@ pub fn row_name(description: &Description, row: usize) -> &'static str {
         .contacts
         .iter()
         .map(|c| (c.row..c.row + 1, c.name));
-    let frictions = description
-        .frictions
-        .iter()
-        .map(|f| (f.row..f.row + f.components, f.name));
+    let frictions = description.frictions.iter().map(|f| (f.rows(), f.name));
     let mut items = constraints.chain(contacts).chain(frictions);
     items
         .find(|(rows, _)| rows.contains(&row))

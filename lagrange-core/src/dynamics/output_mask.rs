@@ -130,7 +130,7 @@ pub(crate) fn of_motion(
             continue;
         }
         needs.insert(friction.coefficients_need);
-        for row in &description.rows[friction.row..friction.row + friction.components] {
+        for row in &description.rows[friction.rows()] {
             needs.insert(row.needs.jacobian);
             if !matches!(sliding.direction, Direction::Fixed(_)) {
                 needs.insert(row.needs.velocity);
@@ -217,7 +217,7 @@ pub fn add_guards(
                 }
             }
             FrictionMode::Slip(_) => {
-                for row in &description.rows[friction.row..friction.row + friction.components] {
+                for row in &description.rows[friction.rows()] {
                     needs.insert(row.needs.velocity);
                 }
             }

@@ -230,7 +230,7 @@ impl<T: Scalar> Dynamics<T> {
     /// The size of what makes the slip of friction `f`, at least 1, from the numbers of the last [`Self::tape`].
     pub fn slip_size(&self, f: usize, v: &[T]) -> f64 {
         let friction = &self.description().frictions[f];
-        let rows = &self.description().rows[friction.row..friction.row + friction.components];
+        let rows = &self.description().rows[friction.rows()];
         let terms = rows.iter().flat_map(|row| row.jacobian);
         let sizes = terms.map(|&(j, place)| (self.motion(place) * v[j]).value().abs());
         1.0 + sizes.sum::<f64>()

@@ -87,7 +87,7 @@ pub(crate) fn acts(description: &Description, effects: &Effects, mode: &Mode, ro
     let owner = description
         .frictions
         .iter()
-        .position(|f| (f.row..f.row + f.components).contains(&row));
+        .position(|f| f.rows().contains(&row));
     owner.is_some_and(|i| {
         mode.frictions[i] == FrictionMode::Stick
             && effects.includes(description, Item::Friction(i))

@@ -413,7 +413,7 @@ fn of_products<T: Scalar>(guard: Guard, mode: &Mode, reading: &Reading<'_, T>, o
         },
         Guard::Slip(f) => {
             let friction = &d.frictions[f];
-            let rows = &d.rows[friction.row..friction.row + friction.components];
+            let rows = &d.rows[friction.rows()];
             let along = match mode.frictions[f] {
                 FrictionMode::Slip(Sliding {
                     direction: Direction::Fixed(along),
@@ -484,7 +484,7 @@ pub fn cone_unit(forces: impl Iterator<Item = f64>) -> f64 {
 /// (μs N)² − Σ F², in [units of their own](cone_unit).
 fn stick_cone<T: Scalar>(f: usize, mode: &Mode, reading: &Reading<'_, T>, out: &mut [f64]) {
     let friction = &reading.description().frictions[f];
-    let rows = friction.row..friction.row + friction.components;
+    let rows = friction.rows();
     let mut greatest = [0.0; LENGTH];
     let first = |row: usize| reading.force(row).first().value();
     let values = rows.clone().map(first);

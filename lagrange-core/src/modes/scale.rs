@@ -98,7 +98,7 @@ impl Sizes {
             Guard::Slip(f) => {
                 let friction = &d.frictions[f];
                 let force = self.friction(f, friction.kinetic_coefficient, dynamics);
-                let rows = friction.row..friction.row + friction.components;
+                let rows = friction.rows();
                 let sizes = rows.map(|row| {
                     let row = self.row(row, dynamics);
                     row.acceleration + row.compliance * force
@@ -150,7 +150,7 @@ impl Sizes {
         for friction in d.frictions {
             let normal = friction.normal.rows(d).map(|row| held[row]);
             let part = number(friction.kinetic_coefficient) * normal.sum::<f64>();
-            for size in &mut held[friction.row..friction.row + friction.components] {
+            for size in &mut held[friction.rows()] {
                 *size += part;
             }
         }
@@ -235,7 +235,7 @@ impl Sizes {
     /// Size of the forces that keep friction `f` from slipping.
     pub fn limit<T: Scalar>(&self, f: usize, dynamics: &Dynamics<T>) -> f64 {
         let friction = &dynamics.description().frictions[f];
-        let rows = friction.row..friction.row + friction.components;
+        let rows = friction.rows();
         let force = rows.map(|row| self.row(row, dynamics).force);
         force.fold(0.0, f64::max) + self.friction(f, friction.static_coefficient, dynamics)
     }
@@ -244,7 +244,7 @@ impl Sizes {
 /// The unit of the cone of friction `f` as a factor, and in it the sum of the force and of its limit.
 fn cone<T: Scalar>(f: usize, dynamics: &Dynamics<T>) -> (f64, f64) {
     let friction = &dynamics.description().frictions[f];
-    let rows = friction.row..friction.row + friction.components;
+    let rows = friction.rows();
     let values = rows.map(|row| dynamics.force(row).value());
     let limit = exact::limit(f, dynamics.mode(), dynamics).value();
     let unit = 1.0 / guard::cone_unit(values.clone().chain([limit]));

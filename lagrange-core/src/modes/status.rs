@@ -162,7 +162,7 @@ impl ConstraintStatus {
         if !friction.normal.presses(|c| self.mode.contacts[c]) {
             return;
         }
-        let rows = friction.row..friction.row + friction.components;
+        let rows = friction.rows();
         let slip = |row: usize| view.number(d.rows[row].velocity);
         // In a dead centre the slip is small however fast the motion is: that is no rest.
         let fastest = rows.clone().map(|row| view.fastest(row)).sum::<f64>();

@@ -68,7 +68,7 @@ fn watched<T: Scalar>(dynamics: &Dynamics<T>) -> Watched {
     let frictions = frictions.filter(|(f, _)| effects.includes(d, Item::Friction(*f)));
     let rows = contacts
         .map(|(_, contact)| contact.row..contact.row + 1)
-        .chain(frictions.map(|(_, friction)| friction.row..friction.row + friction.components))
+        .chain(frictions.map(|(_, friction)| friction.rows()))
         .flatten();
     for row in rows.map(|row| &d.rows[row]) {
         if !is_constant(row) {

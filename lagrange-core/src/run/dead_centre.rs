@@ -64,7 +64,7 @@ impl<T: Scalar> Run<T> {
         self.dynamics.set_extra_needs(&self.switcher.status.needs);
         self.dynamics.tape(self.now.t, &beside.q, &beside.v);
         let friction = &d.frictions[f];
-        let rows = &d.rows[friction.row..friction.row + friction.components];
+        let rows = &d.rows[friction.rows()];
         let elements = rows.iter().flat_map(|row| row.jacobian);
         let sizes = elements.map(|&(_, place)| self.dynamics.motion(place).value().abs());
         sizes.sum()

@@ -471,7 +471,7 @@ impl<T: Scalar> Run<T> {
     /// Whether the slip of friction `f` vanishes after an impact.
     fn rests_after(&self, outcome: &Impact<T>, f: usize) -> bool {
         let friction = &self.description().frictions[f];
-        (friction.row..friction.row + friction.components).all(|row| {
+        friction.rows().all(|row| {
             let (mut slip, mut size) = self.rate(row);
             let jacobian = self.description().rows[row].jacobian.iter();
             for &(j, place) in jacobian {
@@ -591,7 +591,7 @@ impl<T: Scalar> Run<T> {
     /// [`Self::rate`] of every component of the slip of friction `f`.
     fn rates_of_slip(&self, f: usize) -> impl Iterator<Item = (f64, f64)> {
         let friction = &self.description().frictions[f];
-        let rows = friction.row..friction.row + friction.components;
+        let rows = friction.rows();
         rows.map(|row| self.rate(row))
     }
 

@@ -6,6 +6,7 @@
 use super::places::{Branch, Condition, Coupling, Energy, Momenta, Normal, Restitution, Row};
 use crate::program::{Encoded, ValueRef};
 use core::fmt;
+use core::ops::Range;
 use core::str::FromStr;
 
 /// Everything the core knows of a system. Indices run in order of declaration.
@@ -299,6 +300,13 @@ pub struct Friction {
     /// Parameters that μk contains.
     #[doc(hidden)]
     pub kinetic_parameters: &'static [usize],
+}
+
+impl Friction {
+    /// Its rows, one per slip component.
+    pub(crate) fn rows(&self) -> Range<usize> {
+        self.row..self.row + self.components
+    }
 }
 
 /// An applied force or a dissipation.

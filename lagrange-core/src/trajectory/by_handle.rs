@@ -155,5 +155,5 @@ impl<T: Scalar> Event<T> {
 #[track_caller]
 fn components<'a, T>(d: &Description, rows: &'a [T], friction: FrictionId) -> &'a [T] {
     let friction = named(d.frictions, friction.0, "friction");
-    &rows[friction.row..friction.row + friction.components]
+    &rows[friction.rows()]
 }

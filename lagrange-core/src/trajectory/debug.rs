@@ -2,7 +2,7 @@
 
 use super::{Event, Instant, Trajectory};
 use crate::arithmetic::Scalar;
-use crate::system::Description;
+use crate::system::{Description, Friction};
 use core::fmt::{Debug, Formatter, Result};
 
 /// Numbers with their names.
@@ -54,7 +54,7 @@ impl<T: Debug> Debug for Instant<T> {
         let frictions: Vec<&str> = d.frictions.iter().map(|c| c.name).collect();
         let loads: Vec<&str> = d.forces.iter().map(|c| c.name).collect();
         let observes: Vec<&str> = d.observes.iter().map(|c| c.name).collect();
-        let components = d.frictions.iter().flat_map(|f| f.row..f.row + f.components);
+        let components = d.frictions.iter().flat_map(Friction::rows);
         let slips: Vec<&str> = components.map(|row| rows[row].as_str()).collect();
         f.debug_struct("Instant")
             .field("time", &self.time)

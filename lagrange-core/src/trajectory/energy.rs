@@ -80,7 +80,7 @@ impl Working {
         let slipping = d.frictions.iter().zip(&mode.frictions);
         let slipping = slipping
             .filter(|(_, friction)| matches!(friction, FrictionMode::Slip(_)))
-            .flat_map(|(f, _)| f.row..f.row + f.components);
+            .flat_map(|(f, _)| f.rows());
         let mut rows: Vec<usize> = acting.filter(|&row| d.rows[row].rheonomic).collect();
         rows.extend(slipping);
         rows.sort_unstable();

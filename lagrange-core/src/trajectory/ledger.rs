@@ -245,7 +245,7 @@ fn items(d: &'static Description) -> (Vec<Entry>, Vec<usize>) {
 
 fn kind(d: &Description, row: usize) -> &'static str {
     let mut frictions = d.frictions.iter();
-    if frictions.any(|f| (f.row..f.row + f.components).contains(&row)) {
+    if frictions.any(|f| f.rows().contains(&row)) {
         "friction"
     } else if d.contacts.iter().any(|c| c.row == row) {
         "contact"

@@ -12,7 +12,7 @@ use crate::mode::{Direction, Mode};
 use crate::modes::exact::length;
 use crate::modes::guard;
 use crate::modes::redundant::RedundantForces;
-use crate::system::{Description, Normal, ValueRef};
+use crate::system::{Description, Friction, Normal, ValueRef};
 
 /// Everything known at one time.
 #[derive(Clone)]
@@ -334,7 +334,7 @@ pub(crate) fn instant<T: Scalar>(
         .contacts
         .iter()
         .map(|c| d.rows[c.row].position.unwrap_or(ValueRef::Zero));
-    let frictions = d.frictions.iter().flat_map(|f| f.row..f.row + f.components);
+    let frictions = d.frictions.iter().flat_map(Friction::rows);
     let limits = (0..d.frictions.len()).map(|f| limit(dynamics, f, &forces));
     let limits = limits.collect();
     Ok(Instant {

@@ -524,7 +524,7 @@ fn is_held<T: Scalar>(guard: Guard, facts: &SwitchFacts, dynamics: &Dynamics<T>)
     let mut rows = match guard {
         Guard::Gap(c) if facts.located.contains(&Guard::Normal(c)) => return false,
         Guard::Gap(c) => d.contacts[c].row..d.contacts[c].row + 1,
-        Guard::Slip(f) => d.frictions[f].row..d.frictions[f].row + d.frictions[f].components,
+        Guard::Slip(f) => d.frictions[f].rows(),
         _ => return false,
     };
     rows.all(|row| dynamics.follows(row))

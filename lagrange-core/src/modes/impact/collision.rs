@@ -9,6 +9,7 @@
 
 use super::bearing::Bearing;
 use crate::arithmetic::Scalar;
+use core::ops::Range;
 
 /// A contact whose gap vanishes.
 #[derive(Clone, Copy, Debug)]
@@ -49,6 +50,13 @@ pub(super) struct FrictionRow<T> {
     pub stick: T,
     /// μk.
     pub slide: T,
+}
+
+impl<T> FrictionRow<T> {
+    /// Its rows, one per slip component.
+    pub fn rows(&self) -> Range<usize> {
+        self.row..self.row + self.components
+    }
 }
 
 /// The data of an impact.

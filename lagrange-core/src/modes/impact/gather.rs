@@ -309,8 +309,7 @@ impl<T: Scalar> Gathering<T> {
             stick: dynamics.motion(friction.static_coefficient),
             slide: dynamics.motion(friction.kinetic_coefficient),
         });
-        self.rows
-            .extend(friction.row..friction.row + friction.components);
+        self.rows.extend(friction.rows());
         let sticks = dynamics.mode().frictions[f] == FrictionMode::Stick;
         self.at_rest.resize(self.rows.len(), sticks);
     }

@@ -232,7 +232,7 @@ impl<T: Scalar> Collider<T> {
         outcome.slips.clear();
         outcome.slips.resize(d.frictions.len(), 0.0);
         for rub in &c.rubs {
-            let rows = rub.row..rub.row + rub.components;
+            let rows = rub.rows();
             let slip = length(&turns.rates[rows.clone()]);
             outcome.sticks[rub.friction] = slip <= turns.noise[rub.row];
             let strength = rows.map(|row| c.strength(row)).fold(0.0, f64::max);

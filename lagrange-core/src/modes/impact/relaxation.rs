@@ -109,7 +109,7 @@ impl Relaxation {
 
     fn rub<T: Scalar>(&mut self, c: &Collision<T>, phase: &Phase<T>, r: usize) -> f64 {
         let rub = &c.rubs[r];
-        let rows = rub.row..rub.row + rub.components;
+        let rows = rub.rows();
         let own: f64 = rows.clone().map(|i| c.g(i, i).value()).sum();
         if own <= 0.0 {
             return 0.0;
@@ -145,13 +145,13 @@ impl Relaxation {
         let mut lowered = false;
         for (r, rub) in c.rubs.iter().enumerate() {
             // Of a slip that friction ends rounding of what it does is left.
-            let size = (rub.row..rub.row + rub.components).fold(0.0_f64, |size, i| {
+            let size = rub.rows().fold(0.0_f64, |size, i| {
                 let ended = self.impulses[i].abs() * c.g(i, i).value();
                 let before = phase.rates[i].value().abs();
                 size.max(self.rates[i].abs()).max(before).max(ended)
             });
             let mut s = [0.0; 2];
-            s[..rub.components].copy_from_slice(&self.rates[rub.row..rub.row + rub.components]);
+            s[..rub.components].copy_from_slice(&self.rates[rub.rows()]);
             let speed = s[0].hypot(s[1]);
             let slide = if !pattern.bears(rub, phase) {
                 Slide::Idle

@@ -207,7 +207,7 @@ fn judge(c: &Collision<f64>, law: &Law<f64>, kind: &Kind) {
             continue;
         }
         let normal = law.impulses[c.bearing_row(rub)].abs();
-        let part = |x: &[f64]| x[rub.row..rub.row + rub.components].to_vec();
+        let part = |x: &[f64]| x[rub.rows()].to_vec();
         let (impulse, slip) = (part(&law.impulses), part(&law.after));
         let size = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
         let mu = if size(&slip) > tiny && !kind.poisson {

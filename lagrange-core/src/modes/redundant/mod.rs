@@ -324,7 +324,7 @@ impl<T: Scalar> RedundantForces<T> {
         for (f, friction) in d.frictions.iter().enumerate() {
             if let FrictionMode::Slip(_) = dynamics.mode().frictions[f] {
                 let open = friction.normal.rows(d).any(|source| out[source]);
-                out[friction.row..friction.row + friction.components].fill(open);
+                out[friction.rows()].fill(open);
             }
         }
     }

@@ -88,7 +88,7 @@ impl<T: Scalar> Pattern<T> {
         let bearer = c.bearing_row(rub);
         let press = self.impulses[bearer].value();
         let normal = rub.factor.value() * press.abs();
-        let impulse = length(&self.impulses[rub.row..rub.row + rub.components]);
+        let impulse = length(&self.impulses[rub.rows()]);
         let own = c.g(rub.row, rub.row).value();
         let noise = |mu: f64| {
             let bearing = c.g(bearer, bearer).value().max(f64::MIN_POSITIVE);

@@ -125,7 +125,7 @@ impl<T: Scalar> Pattern<T> {
         self.find_shares(c);
         for (rub, slide) in c.rubs.iter().zip(&self.slides) {
             if *slide == Slide::Stick {
-                self.unknowns.extend(rub.row..rub.row + rub.components);
+                self.unknowns.extend(rub.rows());
             }
         }
     }

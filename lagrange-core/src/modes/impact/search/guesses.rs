@@ -169,7 +169,7 @@ impl<T: Scalar> Search<T> {
                 }
                 Some(Violation::FrictionRow(r)) if solved => {
                     let rub = &c.rubs[r];
-                    let impulse = &self.pattern.impulses[rub.row..rub.row + rub.components];
+                    let impulse = &self.pattern.impulses[rub.rows()];
                     let size = length(impulse);
                     self.pattern.slides[r] = match (self.pattern.slides[r], impulse) {
                         (Slide::Stick, [x]) => Slide::Along(-x.value().signum()),
