@@ -170,7 +170,7 @@ impl<T: Scalar> Dynamics<T> {
     }
 
     fn is_constantly_zero(&self, place: ValueRef) -> bool {
-        !matches!(place, ValueRef::Node(_)) && self.motion(place).is_zero()
+        !place.varies() && self.motion(place).is_zero()
     }
 
     /// Moves positions, then velocities, with some of them held: `held_positions[j]` keeps qⱼ, `held_velocities[j]` keeps vⱼ

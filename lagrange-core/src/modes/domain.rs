@@ -41,7 +41,7 @@ pub fn check<T: Scalar>(
     }
     for c in 0..d.contacts.len() {
         let (Restitution::Newton(place) | Restitution::Poisson(place)) = d.contacts[c].restitution;
-        if is_fixed(place) {
+        if !place.varies() {
             check_restitution(dynamics, t, c)?;
         }
     }
@@ -106,7 +106,7 @@ pub fn check_acting<T: Scalar>(dynamics: &Dynamics<T>, t: f64) -> Result<(), Err
             FrictionMode::Slip(_) => kinetic_friction(friction),
         };
         let numbers = normal_force(friction).into_iter().chain([coefficient]);
-        let numbers = numbers.filter(|number| !is_fixed(number.place));
+        let numbers = numbers.filter(|number| number.place.varies());
         refuse_negative(dynamics, t, f, numbers)?;
     }
     Ok(())
@@ -118,7 +118,7 @@ pub fn strengths_vary(d: &Description) -> bool {
         let coefficients = [static_friction(friction), kinetic_friction(friction)];
         normal_force(friction).into_iter().chain(coefficients)
     });
-    numbers.into_iter().any(|number| !is_fixed(number.place))
+    numbers.into_iter().any(|number| number.place.varies())
 }
 
 /// A number that a friction is made of.
@@ -158,7 +158,7 @@ fn normal_force(friction: &Friction) -> Option<Number> {
 
 /// A number that vanishes with the slip has the sign of its error where that has decayed.
 fn least(place: ValueRef) -> f64 {
-    if is_fixed(place) { 0.0 } else { -DECAYED }
+    if place.varies() { -DECAYED } else { 0.0 }
 }
 
 fn refuse_negative<T: Scalar>(
@@ -180,9 +180,9 @@ fn refuse_negative<T: Scalar>(
                 item: dynamics.description().frictions[f].name,
                 what,
                 value,
-                expected: match is_fixed(place) {
-                    true => "at least 0".to_owned(),
-                    false => "at least 0; where nothing presses write `max(…, 0)`".to_owned(),
+                expected: match place.varies() {
+                    true => "at least 0; where nothing presses write `max(…, 0)`".to_owned(),
+                    false => "at least 0".to_owned(),
                 },
                 fields: values_of(dynamics, parameters),
             });
@@ -205,12 +205,12 @@ fn check_friction<T: Scalar>(
     let mode = mode.frictions[f];
     let numbers = [static_friction(friction), kinetic_friction(friction)];
     let numbers = numbers.into_iter().chain(normal_force(friction));
-    let counts = |number: &Number| is_fixed(number.place) || mode != FrictionMode::Inactive;
+    let counts = |number: &Number| !number.place.varies() || mode != FrictionMode::Inactive;
     refuse_negative(dynamics, t, f, numbers.filter(counts))?;
     // Where the coefficients depend on the slip it is those at rest that must agree.
     let (at_rest, sliding) = (friction.static_coefficient, friction.kinetic_coefficient);
     let [limit, value] = [at_rest, sliding].map(|place| dynamics.motion(place).value());
-    let comparable = is_fixed(at_rest) && is_fixed(sliding) || mode == FrictionMode::Stick;
+    let comparable = !at_rest.varies() && !sliding.varies() || mode == FrictionMode::Stick;
     if comparable && value > (1.0 + ROUNDING) * limit - least(sliding) {
         return Err(Error::Domain {
             time: t,
@@ -303,11 +303,6 @@ fn negative_pivot(a: &mut [f64], n: usize) -> Option<(usize, f64)> {
         }
     }
     None
-}
-
-/// Whether a number depends on parameters only.
-fn is_fixed(place: ValueRef) -> bool {
-    !matches!(place, ValueRef::Node(_))
 }
 
 /// Names and values of parameters.

@@ -153,7 +153,7 @@ pub fn guards_of_mode<T: Scalar>(
 /// Whether friction `f` cannot hold: its static coefficient is 0.
 pub fn fades<T: Scalar>(f: usize, dynamics: &Dynamics<T>) -> bool {
     let place = dynamics.description().frictions[f].static_coefficient;
-    !matches!(place, ValueRef::Node(_)) && dynamics.motion(place).value() == 0.0
+    !place.varies() && dynamics.motion(place).value() == 0.0
 }
 
 /// Whether constraints press a friction, whose N has no known sign.

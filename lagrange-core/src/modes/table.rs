@@ -5,7 +5,7 @@ use crate::dynamics::{Dynamics, OutputMask, add_branch_guards, add_guards};
 use crate::effects::Item;
 use crate::mode::Mode;
 use crate::modes::guard::{self, Guard};
-use crate::system::{Row, ValueRef};
+use crate::system::ValueRef;
 
 /// One mode as a run sees it.
 #[derive(Clone, Debug)]
@@ -71,17 +71,17 @@ fn watched<T: Scalar>(dynamics: &Dynamics<T>) -> Watched {
         .chain(frictions.map(|(_, friction)| friction.rows()))
         .flatten();
     for row in rows.map(|row| &d.rows[row]) {
-        if !is_constant(row) {
+        if !row.is_constant() {
             deciding.insert(row.needs.jacobian);
         }
-        if matches!(row.bias, ValueRef::Node(_)) {
+        if row.bias.varies() {
             deciding.insert(row.needs.bias);
         }
     }
     let acting = dynamics.acting_rows().iter().map(|&row| &d.rows[row]);
     let drifts = acting
         .into_iter()
-        .any(|row| !is_constant(row) || row.bias != ValueRef::Zero);
+        .any(|row| !row.is_constant() || row.bias != ValueRef::Zero);
     Watched {
         mode: mode.clone(),
         guards,
@@ -89,9 +89,4 @@ fn watched<T: Scalar>(dynamics: &Dynamics<T>) -> Watched {
         deciding,
         drifts,
     }
-}
-
-fn is_constant(row: &Row) -> bool {
-    let places = row.jacobian.iter().map(|(_, place)| place);
-    !places.into_iter().any(|p| matches!(p, ValueRef::Node(_)))
 }

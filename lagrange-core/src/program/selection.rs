@@ -14,6 +14,11 @@ pub enum ValueRef {
 }
 
 impl ValueRef {
+    /// Whether the number changes with the state; others depend on parameters only.
+    pub(crate) fn varies(self) -> bool {
+        matches!(self, ValueRef::Node(_))
+    }
+
     /// The number there, given the constants and the outputs.
     #[inline]
     pub(crate) fn read<T: Scalar>(self, constants: &[T], outputs: &[T]) -> T {

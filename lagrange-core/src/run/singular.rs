@@ -66,19 +66,13 @@ impl Rank {
     /// Watches the constraints whose Jacobian depends on the state and that act at all times, as far as these effects have them.
     pub(super) fn new(d: &Description, effects: &Effects) -> Self {
         let n = d.coordinates.len();
-        let changes = |row: usize| {
-            let jacobian = d.rows[row].jacobian.iter();
-            jacobian
-                .clone()
-                .any(|(_, place)| matches!(place, ValueRef::Node(_)))
-        };
         let constraints = d.constraints.iter().enumerate();
         let acting = constraints.filter(|(i, constraint)| {
             constraint.while_contact.is_none() && effects.includes(d, Item::Constraint(*i))
         });
         let mut rows: Vec<usize> = acting.map(|(_, constraint)| constraint.row).collect();
         // A row that is constant cannot lose rank alone, but one that is not may come to depend on it.
-        if !rows.iter().any(|&row| changes(row)) {
+        if !rows.iter().any(|&row| !d.rows[row].is_constant()) {
             rows.clear();
         }
         let m = rows.len();

@@ -22,6 +22,13 @@ pub struct Row {
     pub needs: RowNeeds,
 }
 
+impl Row {
+    /// Whether its Jacobian depends on parameters only.
+    pub(crate) fn is_constant(&self) -> bool {
+        !self.jacobian.iter().any(|(_, place)| place.varies())
+    }
+}
+
 /// Needs of a row.
 #[derive(Clone, Copy, Debug)]
 pub struct RowNeeds {
