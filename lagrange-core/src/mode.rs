@@ -3,7 +3,7 @@
 //! Within one mode the equations of motion are smooth; the guards say where it ends.
 
 use crate::handle::{ContactId, FrictionId, named};
-use crate::system::Description;
+use crate::system::{Condition, Description};
 use core::fmt;
 
 /// How a friction acts.
@@ -148,6 +148,16 @@ impl Mode {
         } else {
             self.branches[index / 64] &= !bit;
         }
+    }
+
+    /// Whether the conditions of a stop or a mark hold in this mode.
+    pub(crate) fn satisfies(&self, conditions: &[Condition]) -> bool {
+        conditions.iter().all(|condition| match *condition {
+            Condition::Closed(c) => self.contacts[c],
+            Condition::Open(c) => !self.contacts[c],
+            Condition::Sticks(f) => self.frictions[f] == FrictionMode::Stick,
+            Condition::Slips(f) => matches!(self.frictions[f], FrictionMode::Slip(_)),
+        })
     }
 
     /// Whether the same equations hold in both: they are one but for the directions in which slips begin.

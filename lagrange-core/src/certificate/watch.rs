@@ -10,8 +10,8 @@ use crate::arithmetic::Scalar;
 use crate::declaration::{Declaration, Evaluator, Inputs, Interval, Real};
 use crate::effects::Item;
 use crate::integrate::horner;
-use crate::mode::{FrictionMode, Mode};
-use crate::system::{Condition, Description, Watch};
+use crate::mode::Mode;
+use crate::system::Description;
 use crate::trajectory::{self, Trajectory};
 
 /// A step is cut into at most so many parts.
@@ -343,8 +343,8 @@ impl Guard {
     fn acts(&self, d: &Description, mode: &Mode) -> bool {
         match self.kind {
             Kind::Gap(c) => !mode.contacts[c],
-            Kind::Stop(i) => holds(&d.stops[i], mode),
-            Kind::Mark(i) => holds(&d.marks[i], mode),
+            Kind::Stop(i) => mode.satisfies(d.stops[i].conditions),
+            Kind::Mark(i) => mode.satisfies(d.marks[i].conditions),
         }
     }
 
@@ -397,14 +397,4 @@ impl Guard {
             0.0
         }
     }
-}
-
-/// Whether the mode is as the conditions of a stop or mark say.
-fn holds(watch: &Watch, mode: &Mode) -> bool {
-    watch.conditions.iter().all(|condition| match *condition {
-        Condition::Closed(c) => mode.contacts[c],
-        Condition::Open(c) => !mode.contacts[c],
-        Condition::Sticks(f) => mode.frictions[f] == FrictionMode::Stick,
-        Condition::Slips(f) => matches!(mode.frictions[f], FrictionMode::Slip(_)),
-    })
 }

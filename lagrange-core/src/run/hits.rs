@@ -9,11 +9,11 @@ use super::rest::Rest;
 use crate::arithmetic::{Scalar, epsilon};
 use crate::events::{Direction, RootList, deflate, first_root, roots};
 use crate::integrate::{polynomial_derivative as slope, polynomial_value as value};
-use crate::mode::{FrictionMode, Mode};
+use crate::mode::Mode;
 use crate::modes::composite::CompositeGuard;
 use crate::modes::guard::{Guard, LENGTH};
 use crate::settings::Settings;
-use crate::system::{Condition, Description, Watch};
+use crate::system::{Description, Watch};
 
 /// Coefficients this much smaller than all together cannot be told from 0: some degrees times rounding.
 const RESOLUTION: f64 = 1e-13;
@@ -131,7 +131,7 @@ impl<T: Scalar> Run<T> {
         let stays = |&i: &usize| {
             let below = &self.locator.stop_below[i];
             let mut terms = below.iter().enumerate();
-            !holds(&d.stops[i], &self.now.mode)
+            !self.now.mode.satisfies(d.stops[i].conditions)
                 || terms.all(|(k, &below)| self.locator.polynomials.stop_stays(i, k, below))
         };
         guards_stay && self.locator.polynomials.stops.iter().all(stays)
@@ -330,7 +330,7 @@ impl<T: Scalar> Run<T> {
                 let places = roots.map(|root| self.place(Guard::Mark(i, 0), root).0);
                 list.extend(
                     places
-                        .filter(|s| *s <= last && holds(watch, &self.now.mode))
+                        .filter(|s| *s <= last && self.now.mode.satisfies(watch.conditions))
                         .map(|s| (i, s.min(end))),
                 );
             } else {
@@ -357,7 +357,7 @@ impl<T: Scalar> Run<T> {
         end: f64,
         term: impl Fn(usize) -> Term<'c>,
     ) -> Option<f64> {
-        if !holds(watch, &self.now.mode) {
+        if !self.now.mode.satisfies(watch.conditions) {
             return None;
         }
         let mut best: Option<f64> = None;
@@ -530,14 +530,4 @@ fn comes_back_at_once(curve: &[f64], was_below: bool, resolution: f64) -> bool {
         false => start < 0.0 && rate > 0.0,
     };
     crosses && is_zero(curve, 0.0, start, resolution)
-}
-
-/// Whether the conditions of a watch hold in a mode.
-pub(super) fn holds(watch: &Watch, mode: &Mode) -> bool {
-    watch.conditions.iter().all(|condition| match *condition {
-        Condition::Closed(c) => mode.contacts[c],
-        Condition::Open(c) => !mode.contacts[c],
-        Condition::Sticks(f) => mode.frictions[f] == FrictionMode::Stick,
-        Condition::Slips(f) => matches!(mode.frictions[f], FrictionMode::Slip(_)),
-    })
 }

@@ -576,8 +576,8 @@ impl<T: Scalar> Run<T> {
         let reading = Reading::Series(&self.dynamics);
         let value = |k| guard::value(term(k), &self.now.mode, &reading);
         !watch.conditions.is_empty()
-            && !hits::holds(watch, &self.recorder.before.mode)
-            && hits::holds(watch, &self.now.mode)
+            && !self.recorder.before.mode.satisfies(watch.conditions)
+            && self.now.mode.satisfies(watch.conditions)
             && (0..watch.terms.len()).all(|k| value(k) >= 0.0)
     }
 
