@@ -62,14 +62,10 @@ impl<T: Scalar> Compiled<T> {
         constants: &mut Constants<T>,
     ) -> Self {
         let d = system.description();
-        let mut motion_needs = OutputMask::new(d);
-        let mut row_needs = OutputMask::new(d);
-        output_mask::of_motion(d, effects, mode, &mut motion_needs);
-        output_mask::of_rows(d, effects, mode, &mut row_needs);
         let mut compiled = Self {
             mode: mode.clone(),
-            motion_needs,
-            row_needs,
+            motion_needs: output_mask::of_motion(d, effects, mode),
+            row_needs: output_mask::of_rows(d, effects, mode),
             held: Held::new(d),
             acting: acting(d, effects, mode).collect(),
             constants: Vec::new(),

@@ -32,10 +32,8 @@ struct OfBranches<T> {
 impl<T: Scalar> Constants<T> {
     /// None yet.
     pub(super) fn new(d: &Description, effects: &Effects) -> Self {
-        let mut needs = OutputMask::new(d);
-        output_mask::of_effects(d, effects, &mut needs);
         Self {
-            needs,
+            needs: output_mask::of_effects(d, effects),
             list: Vec::new(),
         }
     }

@@ -80,7 +80,8 @@ impl OutputMask {
 }
 
 /// The needs of the effects of a scene: everything but the contributions of what is left out.
-pub(crate) fn of_effects(description: &Description, effects: &Effects, needs: &mut OutputMask) {
+pub(super) fn of_effects(description: &Description, effects: &Effects) -> OutputMask {
+    let mut needs = OutputMask::new(description);
     needs.words.fill(u64::MAX);
     let spare = needs.words.len() * 64 - description.needs.max(1);
     if let Some(last) = needs.words.last_mut() {
@@ -96,6 +97,7 @@ pub(crate) fn of_effects(description: &Description, effects: &Effects, needs: &m
         }
     }
     needs.insert(0);
+    needs
 }
 
 /// The needs of the named energies, without need 0.
@@ -108,14 +110,8 @@ pub(super) fn of_energies(description: &Description) -> OutputMask {
 }
 
 /// What the equations of motion of a mode need: inertia, forces, the rows that act, sliding friction.
-pub(crate) fn of_motion(
-    description: &Description,
-    effects: &Effects,
-    mode: &Mode,
-    needs: &mut OutputMask,
-) {
-    needs.clear();
-    energies_and_forces(description, effects, needs);
+pub(super) fn of_motion(description: &Description, effects: &Effects, mode: &Mode) -> OutputMask {
+    let mut needs = of_energies_and_forces(description, effects);
     for (i, row) in description.rows.iter().enumerate() {
         if acts(description, effects, mode, i) {
             needs.insert(row.needs.jacobian);
@@ -137,21 +133,12 @@ pub(crate) fn of_motion(
             }
         }
     }
+    needs
 }
 
 /// What a projection needs: inertia, and Jacobian, position and velocity of the rows that act.
-pub(crate) fn of_rows(
-    description: &Description,
-    effects: &Effects,
-    mode: &Mode,
-    needs: &mut OutputMask,
-) {
-    needs.clear();
-    for (i, effect) in description.kinetic.iter().enumerate() {
-        if effects.includes(description, Item::Kinetic(i)) {
-            needs.insert(effect.need);
-        }
-    }
+pub(super) fn of_rows(description: &Description, effects: &Effects, mode: &Mode) -> OutputMask {
+    let mut needs = of_inertia(description, effects);
     for (i, row) in description.rows.iter().enumerate() {
         if acts(description, effects, mode, i) {
             needs.insert(row.needs.jacobian);
@@ -161,17 +148,28 @@ pub(crate) fn of_rows(
             }
         }
     }
+    needs
 }
 
-fn energies_and_forces(description: &Description, effects: &Effects, needs: &mut OutputMask) {
+/// Need 0 and the kinetic energies that act.
+fn of_inertia(description: &Description, effects: &Effects) -> OutputMask {
+    let mut needs = OutputMask::new(description);
+    for (i, effect) in description.kinetic.iter().enumerate() {
+        if effects.includes(description, Item::Kinetic(i)) {
+            needs.insert(effect.need);
+        }
+    }
+    needs
+}
+
+/// Need 0 and the energies, forces and dissipations that act.
+fn of_energies_and_forces(description: &Description, effects: &Effects) -> OutputMask {
+    let mut needs = of_inertia(description, effects);
     let mut hold = |item: Item, need: usize| {
         if effects.includes(description, item) {
             needs.insert(need);
         }
     };
-    for (i, effect) in description.kinetic.iter().enumerate() {
-        hold(Item::Kinetic(i), effect.need);
-    }
     for (i, effect) in description.potential.iter().enumerate() {
         hold(Item::Potential(i), effect.need);
     }
@@ -181,6 +179,7 @@ fn energies_and_forces(description: &Description, effects: &Effects, needs: &mut
     for (i, load) in description.dissipations.iter().enumerate() {
         hold(Item::Dissipation(i), load.need);
     }
+    needs
 }
 
 /// What the guards of a mode need beside the equations of motion: the gap of each open contact, the region of each
