@@ -300,33 +300,35 @@ impl<T: Scalar> Dynamics<T> {
     /// [`Self::set_extra_needs`]; of other numbers, zeros.
     #[doc(hidden)]
     pub fn motion_series(&self, place: ValueRef) -> &[T] {
+        let ValueRef::Node(node) = place else {
+            return self.zero_series();
+        };
         if let Some(emitted) = self.in_use() {
-            return match place {
-                ValueRef::Node(node) => emitted.motion_series(self.description, node),
-                ValueRef::Zero | ValueRef::Constant(_) => emitted.zero_series(self.description),
-            };
+            return emitted.motion_series(self.description, node);
         }
         let interpreted = self.compiled().interpreted();
-        interpreted.map_or(&[], |interpreted| match place {
-            ValueRef::Node(node) => interpreted.node_series(node),
-            ValueRef::Zero | ValueRef::Constant(_) => interpreted.zero_series(),
-        })
+        interpreted.map_or(&[], |interpreted| interpreted.node_series(node))
     }
 
     /// Coefficients of a term of a stop or a mark that depends on the state. Its need must have been asked for by
     /// [`Self::set_report_needs`]; of other numbers, zeros: emitted functions give series of what guards read.
     #[doc(hidden)]
     pub fn report_series(&self, place: ValueRef) -> &[T] {
+        let ValueRef::Node(node) = place else {
+            return self.zero_series();
+        };
         if let Some(emitted) = self.in_use() {
-            return match place {
-                ValueRef::Node(node) => emitted.report_series(self.description, node),
-                ValueRef::Zero | ValueRef::Constant(_) => emitted.zero_series(self.description),
-            };
+            return emitted.report_series(self.description, node);
         }
         let interpreted = self.compiled().interpreted();
-        interpreted.map_or(&[], |interpreted| match place {
-            ValueRef::Node(node) => interpreted.report_series(node),
-            ValueRef::Zero | ValueRef::Constant(_) => interpreted.zero_series(),
-        })
+        interpreted.map_or(&[], |interpreted| interpreted.report_series(node))
+    }
+
+    fn zero_series(&self) -> &[T] {
+        if let Some(emitted) = self.in_use() {
+            return emitted.zero_series(self.description);
+        }
+        let interpreted = self.compiled().interpreted();
+        interpreted.map_or(&[], |interpreted| interpreted.zero_series())
     }
 }

@@ -55,39 +55,33 @@ impl<'a, T: Scalar> Reading<'a, T> {
     /// A number of the motion tape.
     #[inline]
     pub fn motion(&self, place: ValueRef) -> Terms<'a, T> {
-        match (self, place) {
-            (Reading::Series(dynamics), ValueRef::Node(_)) => {
+        match self {
+            Reading::Series(dynamics) if place.varies() => {
                 Terms::Many(dynamics.motion_series(place))
             }
-            (Reading::Values(dynamics) | Reading::Series(dynamics), _) => {
-                Terms::One(dynamics.motion(place))
-            }
+            _ => Terms::One(self.dynamics().motion(place)),
         }
     }
 
     /// A number of the report tape.
     #[inline]
     pub fn report(&self, place: ValueRef) -> Terms<'a, T> {
-        match (self, place) {
-            (Reading::Series(dynamics), ValueRef::Node(_)) => {
+        match self {
+            Reading::Series(dynamics) if place.varies() => {
                 Terms::Many(dynamics.report_series(place))
             }
-            (Reading::Values(dynamics) | Reading::Series(dynamics), _) => {
-                Terms::One(dynamics.report(place))
-            }
+            _ => Terms::One(self.dynamics().report(place)),
         }
     }
 
     /// Where the slip of friction `f` with two components points at the start of the step.
     pub fn slip_direction(&self, f: usize) -> [T; 2] {
-        let (Reading::Values(dynamics) | Reading::Series(dynamics)) = self;
-        dynamics.slip_direction(f)
+        self.dynamics().slip_direction(f)
     }
 
     /// The direction of the forces that press together, at the start of the step.
     pub fn resultant_direction(&self, i: usize) -> [T; 3] {
-        let (Reading::Values(dynamics) | Reading::Series(dynamics)) = self;
-        dynamics.resultant_direction(i)
+        self.dynamics().resultant_direction(i)
     }
 
     /// The force of a row.

@@ -15,6 +15,7 @@ pub enum ValueRef {
 
 impl ValueRef {
     /// Whether the number changes with the state; others depend on parameters only.
+    #[inline]
     pub(crate) fn varies(self) -> bool {
         matches!(self, ValueRef::Node(_))
     }
