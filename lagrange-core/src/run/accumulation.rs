@@ -15,7 +15,6 @@ use crate::error::Error;
 use crate::mode::FrictionMode;
 use crate::modes::facts::SwitchFacts;
 use crate::modes::impact::Impact;
-use crate::system::Normal;
 use crate::trajectory::{EventKind, State, Subject};
 
 /// Shrinking is believed after this many intervals.
@@ -343,8 +342,7 @@ impl<T: Scalar> Run<T> {
         let mut near = core::mem::take(&mut self.switcher.near);
         near.clear();
         near.extend((0..d.contacts.len()).filter(|&c| facts.touching[c]));
-        let rubs =
-            |f: &usize| matches!(d.frictions[*f].normal, Normal::Contact(c) if near.contains(&c));
+        let rubs = |f: &usize| near.iter().any(|&c| d.frictions[*f].normal.is_of(c));
         let rubbing = || (0..d.frictions.len()).filter(rubs);
         self.switcher.scratch_mode.clone_from(&self.now.mode);
         near.iter()

@@ -7,7 +7,6 @@ use super::Run;
 use crate::arithmetic::Scalar;
 use crate::error::Error;
 use crate::mode::FrictionMode;
-use crate::system::Normal;
 use crate::trajectory::State;
 
 /// A force that has become so many times as large as where its mode began,
@@ -29,8 +28,7 @@ impl<T: Scalar> Run<T> {
         let rubs = |c: usize| {
             let mut frictions = d.frictions.iter().zip(&self.now.mode.frictions);
             frictions.any(|(friction, state)| {
-                matches!(friction.normal, Normal::Contact(on) if on == c)
-                    && matches!(state, FrictionMode::Slip(_))
+                friction.normal.is_of(c) && matches!(state, FrictionMode::Slip(_))
             })
         };
         let pressed = (0..d.contacts.len()).filter(|&c| self.now.mode.contacts[c] && rubs(c));
@@ -65,7 +63,7 @@ impl<T: Scalar> Run<T> {
         let d = self.description();
         let mut mode = self.now.mode.clone();
         for (friction, state) in d.frictions.iter().zip(&mut mode.frictions) {
-            if matches!(friction.normal, Normal::Contact(on) if on == c) {
+            if friction.normal.is_of(c) {
                 *state = FrictionMode::Inactive;
             }
         }

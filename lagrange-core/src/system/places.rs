@@ -98,6 +98,11 @@ impl Normal {
         contact.into_iter().chain(constraints)
     }
 
+    /// Whether it is the force of this contact.
+    pub(crate) fn is_of(self, contact: usize) -> bool {
+        matches!(self, Normal::Contact(c) if c == contact)
+    }
+
     /// Whether something presses, given which contacts are closed.
     pub(crate) fn presses(self, closed: impl FnOnce(usize) -> bool) -> bool {
         match self {

@@ -167,7 +167,7 @@ impl<T: Scalar> Choices<'_, T> {
             };
             mode.contacts[c] = closed;
             for (f, friction) in self.description().frictions.iter().enumerate() {
-                if matches!(friction.normal, Normal::Contact(on) if on == c) {
+                if friction.normal.is_of(c) {
                     self.set_first(mode, f);
                 }
             }
