@@ -8,7 +8,7 @@ use crate::dynamics::Dynamics;
 use crate::effects::Item;
 use crate::error::Error;
 use crate::mode::{FrictionMode, Mode};
-use crate::system::{Description, Friction, Normal, Restitution, ValueRef};
+use crate::system::{Description, Friction, Normal, ValueRef};
 
 /// Coefficients given by different formulas may differ by this share and still be meant as equal.
 const ROUNDING: f64 = 1e-9;
@@ -40,8 +40,7 @@ pub fn check<T: Scalar>(
         check_friction(dynamics, mode, t, f)?;
     }
     for c in 0..d.contacts.len() {
-        let (Restitution::Newton(place) | Restitution::Poisson(place)) = d.contacts[c].restitution;
-        if !place.varies() {
+        if !d.contacts[c].restitution.place().varies() {
             check_restitution(dynamics, t, c)?;
         }
     }
@@ -77,8 +76,7 @@ pub fn check_parameters<T: Scalar>(dynamics: &Dynamics<T>, t: f64) -> Result<(),
 pub fn check_restitution<T: Scalar>(dynamics: &Dynamics<T>, t: f64, c: usize) -> Result<(), Error> {
     let d = dynamics.description();
     let contact = &d.contacts[c];
-    let (Restitution::Newton(place) | Restitution::Poisson(place)) = contact.restitution;
-    let value = dynamics.motion(place).value();
+    let value = dynamics.motion(contact.restitution.place()).value();
     let outside = !(0.0..=1.0).contains(&value);
     if !(outside && dynamics.effects().includes(d, Item::Contact(c))) {
         return Ok(());

@@ -64,6 +64,14 @@ pub enum Restitution {
     Poisson(ValueRef),
 }
 
+impl Restitution {
+    /// Where e is found.
+    pub(crate) fn place(self) -> ValueRef {
+        let (Restitution::Newton(place) | Restitution::Poisson(place)) = self;
+        place
+    }
+}
+
 /// Source of a friction's normal force.
 #[derive(Clone, Copy, Debug)]
 pub enum Normal {

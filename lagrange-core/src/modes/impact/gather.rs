@@ -212,15 +212,12 @@ impl<T: Scalar> Gathering<T> {
         out.bearings.clear();
         self.list_constraints(dynamics, near, out);
         for &c in near {
-            let (restitution, poisson) = match d.contacts[c].restitution {
-                Restitution::Newton(place) => (place, false),
-                Restitution::Poisson(place) => (place, true),
-            };
+            let restitution = d.contacts[c].restitution;
             out.touches.push(ContactRow {
                 contact: c,
                 row: self.rows.len(),
-                restitution: dynamics.motion(restitution),
-                poisson,
+                restitution: dynamics.motion(restitution.place()),
+                poisson: matches!(restitution, Restitution::Poisson(_)),
             });
             self.rows.push(d.contacts[c].row);
             self.at_rest.push(dynamics.mode().contacts[c]);
