@@ -1,6 +1,7 @@
 //! What can go wrong at run time, with the numbers that say where.
 
 use crate::dynamics::EvaluationError;
+pub use crate::dynamics::error::Level;
 use crate::mode::Mode;
 use crate::system::Description;
 use core::fmt;
@@ -279,15 +280,6 @@ pub enum NotFinite {
     Exponential,
     /// What the motion is made of is so large or so small that products of it overflow.
     Range,
-}
-
-/// Level of a residual.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Level {
-    /// g(q,t)
-    Position,
-    /// ġ
-    Velocity,
 }
 
 /// A number with four digits, with an exponent where it is very small or very large.

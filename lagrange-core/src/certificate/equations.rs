@@ -2,6 +2,7 @@
 
 use crate::declaration::{Declaration, Evaluator, Gradient, Inputs, Seed, Worked};
 use crate::effects::{Effects, Item};
+use crate::error::Level;
 use crate::integrate::least_size;
 use crate::mode::{FrictionMode, Mode};
 use crate::system::Description;
@@ -53,15 +54,6 @@ pub(super) struct Situation<'a> {
     pub loads: &'a [f64],
     /// Whether some forces are chosen among others that move the system in the same way.
     pub shared: bool,
-}
-
-/// A quantity that should vanish or stay positive, by its value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Level {
-    /// A function of positions; its rate vanishes with it.
-    Position,
-    /// Linear in the velocities.
-    Velocity,
 }
 
 /// Change of a value with these derivatives; see [`Equations::reach`].

@@ -1,11 +1,12 @@
 //! Impacts: the balance of momenta, restitution, friction, constraints, and what becomes of the energy.
 
 use super::Subject;
-use super::equations::{Equations, Level, Situation};
+use super::equations::{Equations, Situation};
 use super::instant::length;
 use super::motion::{Examination, numbers};
 use crate::arithmetic::Scalar;
 use crate::effects::Item;
+use crate::error::Level;
 use crate::system::{Impacts, Normal, Restitution};
 use crate::trajectory::{Event, State};
 

@@ -1,8 +1,9 @@
 //! One instant: the balance of forces, constraints, contacts and frictions as the mode demands.
 
-use super::equations::{Equations, Level, Situation};
+use super::equations::{Equations, Situation};
 use super::{Findings, MARGIN, Subject};
 use crate::effects::Item;
+use crate::error::Level;
 use crate::mode::{Direction, FrictionMode, Mode};
 use crate::trajectory::State;
 

@@ -51,6 +51,15 @@ pub enum EvaluationError {
     },
 }
 
+/// Level of a residual.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// g(q,t), a function of positions.
+    Position,
+    /// ġ, linear in the velocities.
+    Velocity,
+}
+
 /// Name of the item that a row belongs to.
 pub fn row_name(description: &Description, row: usize) -> &'static str {
     let constraints = description

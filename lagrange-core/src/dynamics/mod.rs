@@ -7,7 +7,7 @@
 mod compiled;
 mod constants;
 mod emitted;
-mod error;
+pub(crate) mod error;
 mod held;
 mod interpreted;
 mod jacobian;

@@ -8,8 +8,8 @@
 //! The rows are those that act in the mode; dependent ones follow from the others. Reference: Eich 1993, Convergence results
 //! for a coordinate projection method applied to mechanical systems with algebraic constraints, SIAM J. Numer. Anal. 30.
 
-use super::emitted::Emitted;
-use super::emitted::is_finite;
+use super::emitted::{Emitted, is_finite};
+use super::error::Level;
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::{Scalar, epsilon};
 use crate::linear::{Inertia, Shares};
@@ -36,13 +36,6 @@ fn accepted<T: Scalar>() -> f64 {
 const MOST_STEPS: usize = 40;
 /// Halvings of a step that makes the residual worse.
 const MOST_HALVINGS: usize = 12;
-
-/// Level of the rows that are satisfied.
-#[derive(Clone, Copy, PartialEq)]
-enum Level {
-    Position,
-    Velocity,
-}
 
 /// Memory of a projection.
 #[derive(Clone, Debug, Default)]
