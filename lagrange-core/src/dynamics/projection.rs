@@ -171,7 +171,7 @@ impl<T: Scalar> Dynamics<T> {
     ///
     /// # Errors
     /// [`EvaluationError::Projection`] if what is free cannot satisfy a row.
-    pub fn project_holding(
+    pub(crate) fn project_holding(
         &mut self,
         t: T,
         q: &mut [T],
@@ -179,7 +179,7 @@ impl<T: Scalar> Dynamics<T> {
         held_positions: &[bool],
         held_velocities: &[bool],
     ) -> Result<(), EvaluationError> {
-        self.project_positions(t, q, v, held_positions)?;
+        self.move_positions(t, q, v, held_positions, rounding::<T>())?;
         self.project_velocities(t, q, v, held_velocities)?;
         if T::DERIVATIVES > 0 {
             self.move_derivatives(t, q, v, [held_positions, held_velocities]);
@@ -187,21 +187,11 @@ impl<T: Scalar> Dynamics<T> {
         Ok(())
     }
 
-    /// Least change of q in the mass metric that makes g(q,t) = 0; `v` is not used but for the tape.
+    /// Least change of q in the mass metric that makes g(q,t) = 0, where a relative residual is above `least`; `v` is not used but for
+    /// the tape.
     ///
     /// # Errors
     /// [`EvaluationError::Projection`] if what is free cannot satisfy a row.
-    pub fn project_positions(
-        &mut self,
-        t: T,
-        q: &mut [T],
-        v: &[T],
-        held: &[bool],
-    ) -> Result<(), EvaluationError> {
-        self.move_positions(t, q, v, held, rounding::<T>())
-    }
-
-    /// [`Self::project_positions`] where a relative residual is above `least`.
     fn move_positions(
         &mut self,
         t: T,
@@ -254,7 +244,7 @@ impl<T: Scalar> Dynamics<T> {
     ///
     /// # Errors
     /// [`EvaluationError::Projection`] if what is free cannot satisfy a row.
-    pub fn project_velocities(
+    pub(crate) fn project_velocities(
         &mut self,
         t: T,
         q: &[T],

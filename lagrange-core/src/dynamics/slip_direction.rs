@@ -158,14 +158,14 @@ pub(crate) fn approach(mut slip: impl FnMut(f64) -> [f64; 2]) -> Option<[f64; 2]
 }
 
 impl<T: Scalar> Dynamics<T> {
-    /// The direction in which friction `f` of two components slips, or begins to: that at the last [`Self::series`],
-    /// [`Self::set_slip_direction`] or [`Self::take_directions`].
+    /// The direction in which friction `f` of two components slips, or begins to: that at the last [`Self::series`], or the
+    /// one that was set or taken since.
     pub fn slip_direction(&self, f: usize) -> [T; 2] {
         self.slip_directions.of(f)
     }
 
     /// The direction, a unit vector, in which friction `f` of two components begins to slip ([`Direction::Incipient`]).
-    pub fn set_slip_direction(&mut self, f: usize, along: [T; 2]) {
+    pub(crate) fn set_slip_direction(&mut self, f: usize, along: [T; 2]) {
         self.slip_directions.now[f] = along;
     }
 
@@ -228,7 +228,7 @@ impl<T: Scalar> Dynamics<T> {
     }
 
     /// The size of what makes the slip of friction `f`, at least 1, from the numbers of the last [`Self::tape`].
-    pub fn slip_size(&self, f: usize, v: &[T]) -> f64 {
+    pub(crate) fn slip_size(&self, f: usize, v: &[T]) -> f64 {
         let friction = &self.description().frictions[f];
         let rows = &self.description().rows[friction.rows()];
         let terms = rows.iter().flat_map(|row| row.jacobian);
@@ -238,7 +238,7 @@ impl<T: Scalar> Dynamics<T> {
 
     /// Takes the slip directions of all sliding frictions of two components from their slips at the last value, and those of the forces that
     /// press together.
-    pub fn take_directions(&mut self) {
+    pub(crate) fn take_directions(&mut self) {
         self.resultants.hold();
         for f in 0..self.description().frictions.len() {
             if self.turns(f) {

@@ -69,8 +69,6 @@ pub struct Gauss<T> {
 impl<T: Scalar> Gauss<T> {
     /// Degree of the polynomials that [`Self::step`] writes.
     pub const DEGREE: usize = hermite::DEGREE;
-    /// Order of the step's result.
-    pub const ORDER: usize = 2 * STAGES;
 
     /// Steps of size `step` > 0 for `coordinates` coordinates.
     pub fn new(step: f64, coordinates: usize) -> Self {

@@ -34,15 +34,6 @@ impl<T: Scalar> Integrator<T> {
         }
     }
 
-    /// Order of the step's result.
-    pub fn order(&self) -> usize {
-        match self {
-            Self::RungeKutta(method) => method.order(),
-            Self::Radau(_) => Radau::<T>::ORDER,
-            Self::Gauss(_) => Gauss::<T>::ORDER,
-        }
-    }
-
     /// Whether it is explicit and chooses its steps by their errors.
     pub fn is_explicit_and_adaptive(&self) -> bool {
         matches!(self, Self::RungeKutta(method) if method.is_adaptive())

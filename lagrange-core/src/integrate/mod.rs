@@ -3,7 +3,7 @@
 //! The systems are q̇ = v, v̇ = a(t, q, v). Every stepper hands over a [`StepPolynomial`], from which dense output and
 //! guards are read. The Taylor method has its series made elsewhere; [`taylor`] chooses its order and its steps.
 
-pub mod control;
+mod control;
 mod dop853;
 mod dopri5;
 mod factors;
@@ -25,7 +25,7 @@ use core::fmt;
 
 pub use control::Tolerance;
 pub(crate) use control::least_size;
-pub use gauss::Gauss;
+pub(crate) use gauss::Gauss;
 pub use integrator::Integrator;
 pub use method::{Method, ParseMethodError};
 pub use polynomial::StepPolynomial;
@@ -33,8 +33,8 @@ pub(crate) use polynomial::{
     derivative as polynomial_derivative, horner, onto_step, powers_of, sum as polynomial_sum,
     value as polynomial_value,
 };
-pub use radau::Radau;
-pub use runge_kutta::RungeKutta;
+pub(crate) use radau::Radau;
+pub(crate) use runge_kutta::RungeKutta;
 
 /// v̇ = a(t, q, v): what Runge–Kutta methods integrate together with q̇ = v.
 pub trait Acceleration<T> {

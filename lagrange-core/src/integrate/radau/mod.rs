@@ -115,8 +115,6 @@ enum Iteration {
 impl<T: Scalar> Radau<T> {
     /// Degree of the polynomials that [`Self::step`] writes.
     pub const DEGREE: usize = STAGES;
-    /// Order of the step's result.
-    pub const ORDER: usize = 5;
 
     /// For `coordinates` coordinates.
     pub fn new(coordinates: usize) -> Self {

@@ -73,11 +73,6 @@ impl<T: Scalar> RungeKutta<T> {
         })
     }
 
-    /// Order of the step's result.
-    pub fn order(&self) -> usize {
-        self.tableau.order
-    }
-
     /// Degree of the polynomials that [`Self::step`] writes.
     pub fn degree(&self) -> usize {
         if self.tableau.dense.is_empty() {
