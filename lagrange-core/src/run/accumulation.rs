@@ -387,10 +387,8 @@ impl<T: Scalar> Run<T> {
         // The mode is still that of the flights, and so are the forces; what changes with the last one does so from here.
         self.dynamics.set_mode(&self.now.mode);
         self.evaluate_all_rows()?;
-        let state = core::mem::take(&mut self.now.state);
         let kind = EventKind::Accumulates { impacts: count };
-        self.log_watch(Subject::Contact(c), kind, self.now.t, &state);
-        self.now.state = state;
+        self.log_here(Subject::Contact(c), kind);
         self.remember_before();
         Ok(())
     }

@@ -3,7 +3,7 @@
 //! Nothing holds a crank there by rubbing on its slider. The cosine of π/2 is 6e-17 in numbers, and a friction that stuck would have
 //! to be as many times larger than what it holds.
 
-use super::{Progress, Run};
+use super::Run;
 use crate::arithmetic::Scalar;
 use crate::mode::FrictionMode;
 use crate::modes::guard;
@@ -25,7 +25,7 @@ impl<T: Scalar> Run<T> {
             if self.acts_by_rounding(f) {
                 self.now.mode.frictions[f] = FrictionMode::Inactive;
             }
-            (self.now.valued, self.now.series) = (false, Progress::None);
+            self.now.outdate();
             self.dynamics.set_mode(&self.now.mode);
             self.hold_guards();
         }

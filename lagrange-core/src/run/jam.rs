@@ -51,7 +51,7 @@ impl<T: Scalar> Run<T> {
         })?;
         Some(Error::Unbounded {
             time: self.now.t.value(),
-            mode: self.now.mode.display(d).to_string(),
+            mode: self.mode_in_words(),
             item: d.contacts[pressed[k]].name,
             from: looks[0][k],
             to: last[k],

@@ -166,6 +166,13 @@ impl<T: Scalar> Run<T> {
         }
     }
 
+    /// Logs a stop, a mark or an accumulation at the present state, which is that of the last value.
+    pub(super) fn log_here(&mut self, subject: Subject, kind: EventKind) {
+        let state = core::mem::take(&mut self.now.state);
+        self.log_watch(subject, kind, self.now.t, &state);
+        self.now.state = state;
+    }
+
     /// Logs a stop, a mark or an accumulation: the mode and the `state` of the last value go on.
     pub(super) fn log_watch(
         &mut self,

@@ -6,6 +6,7 @@ mod corners;
 mod dead_centre;
 mod extremal;
 mod fading;
+mod failure;
 mod feasible;
 mod guard_polynomials;
 mod hidden;
@@ -120,6 +121,11 @@ struct Now<T> {
 }
 
 impl<T: Scalar> Now<T> {
+    /// What `dynamics` holds is of another state or mode.
+    fn outdate(&mut self) {
+        (self.valued, self.series) = (false, Progress::None);
+    }
+
     /// Where the mode may end, for who decides on the next.
     fn context<'a>(
         &'a self,
@@ -327,7 +333,7 @@ impl<T: Scalar> Run<T> {
         }
         outcome?;
         self.recorder.trajectory.start.clone_from(&self.now.state);
-        (self.now.series, self.now.valued) = (Progress::None, false);
+        self.now.outdate();
         self.now.mode.clone_from(&self.switcher.status.mode);
         self.hold_guards();
         if self.evaluate().is_ok() {
@@ -522,9 +528,7 @@ impl<T: Scalar> Run<T> {
 
     /// Ends the run at a stop.
     fn finish(&mut self, stop: usize) {
-        let state = core::mem::take(&mut self.now.state);
-        self.log_watch(Subject::Stop(stop), EventKind::Stop, self.now.t, &state);
-        self.now.state = state;
+        self.log_here(Subject::Stop(stop), EventKind::Stop);
         self.recorder.finished = true;
     }
 
@@ -563,9 +567,7 @@ impl<T: Scalar> Run<T> {
             let i = self.locator.polynomials.marks[at];
             if self.has_become_true(&d.marks[i], |k| Guard::Mark(i, k)) {
                 self.evaluate()?;
-                let state = core::mem::take(&mut self.now.state);
-                self.log_watch(Subject::Mark(i), EventKind::Mark, self.now.t, &state);
-                self.now.state = state;
+                self.log_here(Subject::Mark(i), EventKind::Mark);
             }
         }
         Ok(())
@@ -598,7 +600,7 @@ impl<T: Scalar> Run<T> {
             .polynomials
             .held
             .clone_from(&self.switcher.decider.decision.held);
-        (self.now.series, self.now.valued) = (Progress::None, false);
+        self.now.outdate();
         self.hold_guards();
     }
 
@@ -624,6 +626,18 @@ impl<T: Scalar> Run<T> {
         }
     }
 
+    /// Asks for the numbers of all rows, whether or not the mode reads them.
+    pub(super) fn ask_for_all_rows(&mut self) {
+        self.dynamics.set_extra_needs(&self.switcher.status.needs);
+    }
+
+    /// The numbers of all rows at the present state; the mode is the one that `dynamics` is in.
+    pub(super) fn tape_of_all_rows(&mut self) {
+        self.ask_for_all_rows();
+        let State { q, v, .. } = &self.now.state;
+        self.dynamics.tape(self.now.t, q, v);
+    }
+
     /// Asks for the stops and marks that take part.
     fn watch(&mut self) {
         let d = self.description();
@@ -639,7 +653,7 @@ impl<T: Scalar> Run<T> {
 
     /// Values at the present state in the present mode, with every row's Jacobian and rate.
     fn evaluate_all_rows(&mut self) -> Result<(), Error> {
-        self.dynamics.set_extra_needs(&self.switcher.status.needs);
+        self.ask_for_all_rows();
         self.evaluate()?;
         self.now.valued = false;
         Ok(())
@@ -685,32 +699,6 @@ impl<T: Scalar> Run<T> {
     /// Whether the time that a step leaves of the run is rounding.
     fn is_spent(&self, rest: f64) -> bool {
         rest.abs() <= 4.5 * epsilon::<T>() * self.end.abs().max(self.stepper.step.h.value())
-    }
-
-    fn limit(&self, what: &'static str, limit: usize) -> Error {
-        Error::Limit {
-            time: self.now.t.value(),
-            what,
-            limit,
-        }
-    }
-
-    fn error(&self, error: EvaluationError) -> Error {
-        let (time, d) = (self.now.t.value(), self.description());
-        let contradicts = matches!(error, EvaluationError::Inconsistent { .. });
-        match Error::from_evaluation(error, time, &self.now.mode, d) {
-            Error::Singular {
-                time, mode, items, ..
-            } if contradicts && self.is_undecided() => Error::Singular {
-                time,
-                mode,
-                items,
-                reason: "constraints lose rank in this position, perhaps several at once, and the way on from it was not found; an \
-                         offset of a part avoids it, another tolerance may pass it"
-                    .to_owned(),
-            },
-            other => other,
-        }
     }
 
     /// Completes the trajectory.

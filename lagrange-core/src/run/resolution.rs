@@ -94,7 +94,7 @@ impl<T: Scalar> Run<T> {
         let d = self.description();
         Err(Error::Singular {
             time: self.now.t.value(),
-            mode: self.now.mode.display(d).to_string(),
+            mode: self.mode_in_words(),
             items: vec![d.coordinates[coordinate].name],
             reason: format!(
                 "the equations of motion are nearly singular here, and rounding leaves velocities known to within {unknown:.1e} of their \

@@ -5,9 +5,9 @@
 //! with what is left, and the slip is at rest once all that can still change is below the tolerance. A slip that only
 //! passes near zero is followed through.
 
+use super::Run;
 use super::instant::derivatives;
 use super::stepping::{JUST_BEFORE, Stepper};
-use super::{Progress, Run};
 use crate::arithmetic::Scalar;
 use crate::dynamics::approach;
 use crate::error::Error;
@@ -129,7 +129,7 @@ impl<T: Scalar> Run<T> {
         }
         self.now.t += time;
         self.exact_rest(T::from_f64(back));
-        (self.now.valued, self.now.series) = (false, Progress::None);
+        self.now.outdate();
         true
     }
 
@@ -213,7 +213,7 @@ impl<T: Scalar> Run<T> {
             mode.frictions[rest.friction] = FrictionMode::Stick;
         }
         self.dynamics.set_mode(mode);
-        self.dynamics.set_extra_needs(&self.switcher.status.needs);
+        self.ask_for_all_rows();
         let State { q, v, .. } = &self.now.state;
         if self.dynamics.value(self.now.t, q, v).is_err() {
             return false;
@@ -363,9 +363,7 @@ impl<T: Scalar> Run<T> {
 
     /// Slips that have vanished with those that were brought to rest: a body with two points at rest is at rest.
     fn rest_of_necessity(&mut self) {
-        let State { q, v, .. } = &self.now.state;
-        self.dynamics.set_extra_needs(&self.switcher.status.needs);
-        self.dynamics.tape(self.now.t, q, v);
+        self.tape_of_all_rows();
         self.rest_what_has_vanished();
         self.ask_for_guards();
     }
@@ -409,7 +407,7 @@ impl<T: Scalar> Run<T> {
         }
         self.dynamics.set_mode(&self.now.mode);
         self.recorder.trajectory.enter(&self.now.mode);
-        (self.now.valued, self.now.series) = (false, Progress::None);
+        self.now.outdate();
         self.hold_guards();
         if self.switcher.redundant.has_open() {
             self.list_guards();

@@ -75,7 +75,8 @@ impl<T: Scalar> Run<T> {
         let d = self.description();
         let mut moved = false;
         for _ in 0..d.branches.len() {
-            self.tape_of_all();
+            self.dynamics.set_mode(&self.now.mode);
+            self.tape_of_all_rows();
             let mut changes = false;
             for (b, branch) in d.branches.iter().enumerate() {
                 if branch.after_solve {
@@ -105,14 +106,6 @@ impl<T: Scalar> Run<T> {
         self.dynamics.set_mode(&self.now.mode);
         self.ask_for_guards();
         self.now.valued = false;
-    }
-
-    /// The numbers of everything that is declared, at the present state.
-    fn tape_of_all(&mut self) {
-        self.dynamics.set_mode(&self.now.mode);
-        self.dynamics.set_extra_needs(&self.switcher.status.needs);
-        let (q, v) = (&self.now.state.q, &self.now.state.v);
-        self.dynamics.tape(self.now.t, q, v);
     }
 
     /// Branches are at their border where everything that touches and rests holds them there: a contact that closes may not do so at the

@@ -9,11 +9,10 @@ use crate::arithmetic::products::{ROW, Row};
 use crate::arithmetic::quad::{Quad, QuadBody, side_by_side};
 use crate::arithmetic::{Scalar, epsilon};
 use crate::dynamics::{Dynamics, EvaluationError};
-use crate::error::{Error, NotFinite};
+use crate::error::Error;
 use crate::integrate::taylor::{self, Costs, DefectControl, Verdict};
 use crate::integrate::{
-    Integrator, Method, StepError, StepPolynomial, horner, onto_step, polynomial_derivative,
-    powers_of,
+    Integrator, Method, StepPolynomial, horner, onto_step, polynomial_derivative, powers_of,
 };
 use crate::modes::guard::Guard;
 use crate::settings::Settings;
@@ -617,22 +616,6 @@ impl<T: Scalar> Run<T> {
         }
     }
 
-    fn no_step(&self, error: StepError<EvaluationError>) -> Error {
-        match error {
-            StepError::Acceleration(e) => self.error(e),
-            StepError::TooSmall { h, .. } => self.step_too_small(h),
-            StepError::NoConvergence { h, .. } => self.step_too_large(h),
-        }
-    }
-
-    fn step_too_large(&self, step: f64) -> Error {
-        Error::StepTooLarge {
-            time: self.now.t.value(),
-            step,
-            mode: self.now.mode.display(self.description()).to_string(),
-        }
-    }
-
     /// Samples the guards along the step.
     fn sample(&mut self) -> Result<(), Error> {
         let State { q, v, .. } = &mut self.stepper.scratch;
@@ -686,25 +669,6 @@ impl<T: Scalar> Run<T> {
                 self.integrate(h)?;
             }
             self.sample()?;
-        }
-    }
-
-    fn step_too_small(&self, step: f64) -> Error {
-        let mode = self.now.mode.display(self.description()).to_string();
-        Error::StepTooSmall {
-            time: self.now.t.value(),
-            step,
-            mode,
-        }
-    }
-
-    fn not_finite(&self, what: &str) -> Error {
-        let mode = self.now.mode.display(self.description()).to_string();
-        Error::NotFinite {
-            time: self.now.t.value(),
-            mode,
-            what: what.to_owned(),
-            cause: NotFinite::Domain,
         }
     }
 

@@ -172,7 +172,7 @@ impl<T: Scalar> Run<T> {
             step,
         );
         // The trial has left other values in their place.
-        (self.now.series, self.now.valued) = (super::Progress::None, false);
+        self.now.outdate();
         outcome.is_ok_and(|accepted| accepted.rejected == 0)
             && self.damping().is_ok_and(|rate| rate * h >= DAMPED)
     }

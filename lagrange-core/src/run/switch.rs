@@ -367,9 +367,7 @@ impl<T: Scalar> Run<T> {
         if !contacts.clone().any(|c| self.may_touch(c, facts)) {
             return;
         }
-        self.dynamics.set_extra_needs(&self.switcher.status.needs);
-        let State { q, v, .. } = &self.now.state;
-        self.dynamics.tape(self.now.t, q, v);
+        self.tape_of_all_rows();
         self.now.valued = false;
         let closed = contacts.clone().filter(|&c| facts.touching[c]);
         let off = closed.map(|c| self.gap(c).abs()).fold(0.0, f64::max);

@@ -1,0 +1,79 @@
+//! Errors of a run, with the present instant and mode in them.
+
+use super::Run;
+use crate::arithmetic::Scalar;
+use crate::dynamics::EvaluationError;
+use crate::error::{Error, NotFinite};
+use crate::integrate::StepError;
+
+impl<T: Scalar> Run<T> {
+    /// Why the equations could not be evaluated at the present instant.
+    pub(super) fn error(&self, error: EvaluationError) -> Error {
+        let (time, d) = (self.now.t.value(), self.description());
+        let contradicts = matches!(error, EvaluationError::Inconsistent { .. });
+        match Error::from_evaluation(error, time, &self.now.mode, d) {
+            Error::Singular {
+                time, mode, items, ..
+            } if contradicts && self.is_undecided() => Error::Singular {
+                time,
+                mode,
+                items,
+                reason: "constraints lose rank in this position, perhaps several at once, and the way on from it was not found; an \
+                         offset of a part avoids it, another tolerance may pass it"
+                    .to_owned(),
+            },
+            other => other,
+        }
+    }
+
+    /// Why a method made no step from the present instant.
+    pub(super) fn no_step(&self, error: StepError<EvaluationError>) -> Error {
+        match error {
+            StepError::Acceleration(e) => self.error(e),
+            StepError::TooSmall { h, .. } => self.step_too_small(h),
+            StepError::NoConvergence { h, .. } => self.step_too_large(h),
+        }
+    }
+
+    /// A step of this size, the last that was tried, hardly changes the time.
+    pub(super) fn step_too_small(&self, step: f64) -> Error {
+        Error::StepTooSmall {
+            time: self.now.t.value(),
+            step,
+            mode: self.mode_in_words(),
+        }
+    }
+
+    /// The stages of a step of this fixed size do not converge.
+    pub(super) fn step_too_large(&self, step: f64) -> Error {
+        Error::StepTooLarge {
+            time: self.now.t.value(),
+            step,
+            mode: self.mode_in_words(),
+        }
+    }
+
+    /// What is named here is no finite number.
+    pub(super) fn not_finite(&self, what: &str) -> Error {
+        Error::NotFinite {
+            time: self.now.t.value(),
+            mode: self.mode_in_words(),
+            what: what.to_owned(),
+            cause: NotFinite::Domain,
+        }
+    }
+
+    /// More happened than a run may have of it.
+    pub(super) fn limit(&self, what: &'static str, limit: usize) -> Error {
+        Error::Limit {
+            time: self.now.t.value(),
+            what,
+            limit,
+        }
+    }
+
+    /// The present mode, as messages name it.
+    pub(super) fn mode_in_words(&self) -> String {
+        self.now.mode.display(self.description()).to_string()
+    }
+}
