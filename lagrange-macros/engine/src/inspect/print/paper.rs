@@ -97,7 +97,9 @@ fn words(text: &str) -> String {
 
 /// A formula whose lists may end a line after each comma. (Browsers that show TeX do not know the command.)
 fn breakable(formula: &str) -> String {
-    formula.replace(", ", ", \\penalty0 ")
+    let broken = formula.replace(", ", ", \\penalty0 ");
+    // Thin spaces end in a comma, too.
+    broken.replace("\\, \\penalty0 ", "\\, ")
 }
 
 fn table(rows: &[Vec<Vec<Piece>>], out: &mut String) {
