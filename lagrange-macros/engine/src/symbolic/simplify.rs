@@ -1,16 +1,13 @@
 //! The cheapest of some forms of equal value: as built, multiplied out, with functions of sums of angles for products
 //! or the other way round; each with common factors taken out.
 
-use super::{ExprId, Node, Pool, Rational};
+use super::{ExprId, Node, Pool};
 
 /// Terms and nodes looked at by one call of `simplify`; beyond it, forms stay as built. Some seconds, unoptimised.
 const CALL_BUDGET: u64 = 1_000_000;
 
 /// The same for all calls.
 const POOL_BUDGET: u64 = 40_000_000;
-
-/// A form in which a difference has lost its digits must be cheaper by so many operations.
-const MORE_EXACT: usize = 2;
 
 impl Pool {
     /// The cheapest of the forms tried, for each sub-expression from the leaves up: as is, expanded with
@@ -52,10 +49,9 @@ impl Pool {
         if !worthwhile {
             return e;
         }
-        let exactness = MORE_EXACT * self.differences(e);
         let mut choice = Choice {
             form: e,
-            cost: self.operations(&[e]).saturating_sub(exactness),
+            cost: self.operations(&[e]),
             seen: vec![e],
         };
         for flat in self.flat_forms(e) {
@@ -71,23 +67,6 @@ impl Pool {
             }
         }
         choice.form
-    }
-
-    /// How many powers of sums with a number, as (x − 3)², are terms or factors: multiplied out their digits cancel close to the number.
-    fn differences(&self, e: ExprId) -> usize {
-        let is_difference = |&(base, exponent): &(ExprId, Rational)| {
-            let shifts = |constant: &Rational| !constant.is_zero();
-            exponent > Rational::ONE
-                && matches!(self.node(base), Node::Sum { constant, .. } if shifts(constant))
-        };
-        let of_product = |e: ExprId| match self.node(e) {
-            Node::Product(factors) => factors.iter().filter(|f| is_difference(f)).count(),
-            _ => 0,
-        };
-        match self.node(e) {
-            Node::Sum { terms, .. } => terms.iter().map(|&(term, _)| of_product(term)).sum(),
-            _ => of_product(e),
-        }
     }
 
     /// Different forms of equal value without common factors taken out, e first.
