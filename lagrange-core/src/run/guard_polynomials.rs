@@ -273,6 +273,11 @@ impl GuardPolynomials {
         lowered.any(|curve| curve.guard == guard)
     }
 
+    /// How many guards may fall below zero.
+    pub(super) fn lowered(&self) -> usize {
+        self.list.iter().filter(|curve| curve.margin > 0.0).count()
+    }
+
     /// Takes the margin from guards that are clear of zero at part `end` of the step.
     pub(super) fn raise(&mut self, end: f64) {
         let coefficients = self.coefficients.chunks_exact(self.width.max(1));

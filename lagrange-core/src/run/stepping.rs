@@ -185,6 +185,7 @@ impl<T: Scalar> Run<T> {
             let shorter = CLOSER_LOOK * h;
             let resolved = self.advances(shorter) && shorter > CLOSEST * moves;
             let whole = self.nothing_happens();
+            let mut lowered = 0;
             let hit = if whole {
                 self.locator.fallen.clear();
                 self.locator.rests.clear();
@@ -193,6 +194,7 @@ impl<T: Scalar> Run<T> {
                 h = shorter;
                 continue;
             } else {
+                lowered = self.locator.polynomials.lowered();
                 self.first_hit()
             };
             let end = hit.end();
@@ -200,11 +202,13 @@ impl<T: Scalar> Run<T> {
                 if self.corrects_composites_at_start(&hit, &mut corrections) {
                     continue;
                 }
-                return match hit {
+                match hit {
+                    // A slip that is all error begins below zero, and goes on there.
+                    Hit::Turned(_) if self.locator.polynomials.lowered() > lowered => continue,
                     // It would be found again.
-                    Hit::Turned(_) => Err(self.step_too_small(h)),
-                    hit => Ok(hit),
-                };
+                    Hit::Turned(_) => return Err(self.step_too_small(h)),
+                    hit => return Ok(hit),
+                }
             }
             // Evaluated here, the end of the step also serves the event log. A slip that vanishes there has no direction.
             let looked = if self.locator.rests.is_empty() {
