@@ -250,3 +250,41 @@ fn one_coefficient_that_depends_on_the_slip() {
         }
     }
 }
+
+/// A hoop with a load on its rim, on ice.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, turn),
+    define(load = [x + radius*sin(turn), y + radius*cos(turn)]),
+    kinetic = mass/2*(der(x)^2 + der(y)^2 + radius^2*der(turn)^2) + (der(load[0])^2 + der(load[1])^2)/2,
+    potential = mass*gravity*y + gravity*load[1],
+    contact(floor: y >= radius),
+    friction(grip on floor: slip = der(x) - radius*der(turn), static = mu),
+)]
+struct Hoop {
+    mass: f64,
+    radius: f64,
+    gravity: f64,
+    mu: f64,
+}
+
+/// Hung still with its load one rounding off the lowest point it has no slip but errors, which begin below zero: the run goes on.
+#[test]
+fn a_slip_that_is_all_error_ends_nothing() {
+    for (mass, radius) in [(0.2, 0.5), (1.0, 0.3), (3.0, 1.7)] {
+        let hoop = Hoop {
+            mass,
+            radius,
+            gravity: G,
+            mu: 0.0,
+        };
+        for tolerance in [1e-9, 1e-12, 1e-13, 1e-14] {
+            for off in [0.0, 1e-14, -1e-13] {
+                let start = state(&[0.0, radius, core::f64::consts::PI + off], &[0.0; 3]);
+                let run = run_by(&hoop, ("taylor", tolerance), start, 3.0);
+                let turn = run.final_state().q(Hoop::TURN) - core::f64::consts::PI;
+                assert!(turn.abs() < 1e-12, "{tolerance:e} {off:e}: {turn:e}");
+            }
+        }
+    }
+}
