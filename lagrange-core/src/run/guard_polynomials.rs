@@ -160,6 +160,7 @@ impl GuardPolynomials {
             });
         self.list.clear();
         self.list.extend(curves);
+        self.shape(self.width);
     }
 
     /// The same in a mode that goes on: what may fall below zero still may, and what is known of guards over the step at hand is kept. Whether
@@ -174,7 +175,6 @@ impl GuardPolynomials {
         let coefficients = core::mem::take(&mut self.coefficients);
         self.arm(guards, mode, dynamics);
         let width = self.width;
-        self.coefficients.resize(self.list.len() * width, 0.0);
         let curves = self.coefficients.chunks_exact_mut(width.max(1));
         for (curve, c) in self.list.iter_mut().zip(curves) {
             // A guard that is new has no root in this step.
