@@ -171,6 +171,11 @@ impl Hidden {
         })
     }
 
+    /// Forgets what belongs to another motion.
+    pub(super) fn restart(&mut self) {
+        self.powers.iter_mut().for_each(|power| power.largest = 0.0);
+    }
+
     /// Whether there are roots among them.
     pub(super) fn has_roots(&self) -> bool {
         !self.roots.is_empty()

@@ -303,6 +303,7 @@ impl<T: Scalar> Run<T> {
         self.now.distance = 1.0;
         self.locator.restart();
         self.switcher.restart();
+        self.hidden.iter_mut().for_each(Hidden::restart);
         self.recorder.awaited.clone_from(&self.settings.last_events);
         (self.recorder.events_before, self.recorder.finished) = (0, false);
         let begun = self.enter_start().and_then(|()| self.settle());
