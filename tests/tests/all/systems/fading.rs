@@ -283,7 +283,8 @@ fn a_slip_that_is_all_error_ends_nothing() {
                 let start = state(&[0.0, radius, core::f64::consts::PI + off], &[0.0; 3]);
                 let run = run_by(&hoop, ("taylor", tolerance), start, 3.0);
                 let turn = run.final_state().q(Hoop::TURN) - core::f64::consts::PI;
-                assert!(turn.abs() < 1e-12, "{tolerance:e} {off:e}: {turn:e}");
+                let allowed = f64::max(tolerance, 1e-12);
+                assert!(turn.abs() < allowed, "{tolerance:e} {off:e}: {turn:e}");
             }
         }
     }
