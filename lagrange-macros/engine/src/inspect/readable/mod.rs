@@ -20,6 +20,9 @@ use std::cell::RefCell;
 const WHOLE: usize = 900;
 /// Of a longer one so much is written, to show how it begins.
 const BEGINNING: usize = 120;
+/// A part with more to read than this is kept as its beginning: what names build on names doubles with each, and nobody reads it. What is
+/// left still is too long to be written whole.
+const LONGEST_PART: usize = 4 * WHOLE;
 
 /// base^exponent factors.
 type Factors = Vec<(ExprId, Rational)>;
@@ -59,14 +62,14 @@ impl<'a> Reader<'a> {
     /// An expression on paper; what would be very long is shortened.
     pub fn formula(&mut self, e: ExprId) -> Formula {
         let full = self.full(e);
-        within(WHOLE, full)
+        within(WHOLE, BEGINNING, full)
     }
 
     fn full(&mut self, e: ExprId) -> Formula {
         if let Some(known) = self.known.get(&e) {
             return known.clone();
         }
-        let formula = self.written(e);
+        let formula = within(LONGEST_PART, 2 * WHOLE, self.written(e));
         self.known.insert(e, formula.clone());
         formula
     }
@@ -89,7 +92,7 @@ impl<'a> Reader<'a> {
                 Formula::Call(name(f).to_owned(), arguments)
             }
             // What is made of groups of groups would be endless.
-            Node::Group(e) => within(BEGINNING, self.full(e)),
+            Node::Group(e) => within(BEGINNING, BEGINNING, self.full(e)),
             Node::Select {
                 branch,
                 then,
@@ -163,12 +166,12 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// A formula, or its beginning if it has more to read than so much.
-fn within(whole: usize, formula: Formula) -> Formula {
+/// A formula, or a beginning of this size if it has more to read than so much.
+fn within(whole: usize, beginning: usize, formula: Formula) -> Formula {
     if formula.size() <= whole {
         formula
     } else {
-        formula.shortened(BEGINNING)
+        formula.shortened(beginning)
     }
 }
 
