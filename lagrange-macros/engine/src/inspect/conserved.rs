@@ -139,12 +139,18 @@ impl Work<'_> {
                 .all(|values| values[0].abs() <= 1e-9 * (1.0 + values[1].abs()));
         let quantity = match same {
             true => Formula::Sum(vec![
-                (false, Formula::Letter(Letter::new("T"))),
-                (false, Formula::Letter(Letter::new("V"))),
+                (false, Formula::Letter(self.names.energies.kinetic.clone())),
+                (
+                    false,
+                    Formula::Letter(self.names.energies.potential.clone()),
+                ),
             ]),
             false => self.reader.formula(h),
         };
-        let name = Letter::new(if same { "E" } else { "h" });
+        let name = match same {
+            true => self.names.energies.total.clone(),
+            false => self.names.energies.jacobi.clone(),
+        };
         let rate = match self.pool().is_zero(power) {
             true => None,
             false => {

@@ -30,7 +30,7 @@ fn written(kind: &ItemKind, names: &Names, items: &mut Vec<Item>) {
     let formula = |e| Part::Formula(names.written(e));
     let unnamed = String::new;
     match kind {
-        ItemKind::Coordinates(list) => add("coordinates", unnamed(), coordinates(list)),
+        ItemKind::Coordinates(list) => add("coordinates", unnamed(), coordinates(list, names)),
         ItemKind::Define(definitions) => {
             for definition in definitions {
                 let defined = equal(&definition.head, &definition.value, names);
@@ -105,10 +105,10 @@ fn equal(head: &Head, value: &Expr, names: &Names) -> Part {
 }
 
 /// `x`, or `x₀ … xₙ`
-fn coordinates(coordinates: &[Coordinate]) -> Vec<Part> {
+fn coordinates(coordinates: &[Coordinate], names: &Names) -> Vec<Part> {
     let mut parts = Vec::new();
     for coordinate in coordinates {
-        let letter = Letter::new(&coordinate.name.text);
+        let letter = names.declared(&coordinate.name.text);
         let Some(length) = &coordinate.length else {
             parts.push(Part::Formula(Formula::Letter(letter)));
             continue;

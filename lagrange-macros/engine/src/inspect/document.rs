@@ -115,14 +115,10 @@ impl Derivation {
             ));
         }
         blocks.push(Block::Heading(2, ENERGIES.to_owned()));
-        let energy = |name: &str, value: &Formula| {
-            let left = Formula::Letter(Letter::new(name));
-            (Vec::new(), Statement::equal(left, value.clone()))
-        };
-        blocks.push(Block::Equations(vec![
-            energy("T", &self.kinetic),
-            energy("V", &self.potential),
-        ]));
+        let energies = [&self.kinetic, &self.potential].into_iter();
+        blocks.push(Block::Equations(
+            energies.map(|e| (Vec::new(), e.clone())).collect(),
+        ));
         blocks.push(Block::Heading(2, MOTION.to_owned()));
         let equations = self.motion.iter();
         blocks.push(Block::Equations(

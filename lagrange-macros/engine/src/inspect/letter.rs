@@ -134,6 +134,11 @@ impl Letter {
         self
     }
 
+    /// Whether a reader would take one for the other.
+    pub fn looks_like(&self, other: &Letter) -> bool {
+        (&self.base, &self.subscript) == (&other.base, &other.subscript)
+    }
+
     /// Number of dots.
     pub fn dots(&self) -> u8 {
         self.rate.saturating_sub(self.undotted)

@@ -49,10 +49,10 @@ pub struct Derivation {
     pub symbols: Vec<Meaning>,
     /// Items as written.
     pub declared: Vec<Item>,
-    /// T
-    pub kinetic: Formula,
-    /// V
-    pub potential: Formula,
+    /// T = …
+    pub kinetic: Statement,
+    /// V = …
+    pub potential: Statement,
     /// Rates and axes of the bodies in space that formulas speak of.
     pub bodies: Vec<Body>,
     /// One per coordinate: inertia = forces.

@@ -40,6 +40,20 @@ pub struct Names {
     bodies: SortedMap<String, String>,
     roots: SortedMap<ExprId, (Rational, Letter)>,
     declared: SortedMap<String, Letter>,
+    /// Letters of the energies.
+    pub energies: Energies,
+}
+
+/// Letters of what energies a system has.
+pub struct Energies {
+    /// T
+    pub kinetic: Letter,
+    /// V
+    pub potential: Letter,
+    /// E = T + V
+    pub total: Letter,
+    /// The Jacobi integral h.
+    pub jacobi: Letter,
 }
 
 /// Letters that physicists write before others in a product, class by class.
@@ -48,12 +62,15 @@ const FIRST: [&str; 3] = ["mMIJ", "kcμ", "g"];
 impl Names {
     /// Letters of everything that a system names.
     pub fn of(declaration: &Declaration, system: &System) -> Names {
+        let declared = declared(declaration, system);
         let mut names = Names {
             symbols: SortedMap::new(),
             bodies: SortedMap::new(),
-            roots: roots(system),
-            declared: fields(declaration, system),
+            roots: SortedMap::new(),
+            energies: energies(&declared),
+            declared,
         };
+        names.roots = names.defined_roots(system);
         names.enter(system.time, Letter::new("t"), Kind::Time, 0);
         for (i, parameter) in system.parameters.iter().enumerate() {
             let field = parameter.name.split('[').next().unwrap_or_default();
@@ -76,7 +93,7 @@ impl Names {
             if names.symbols.contains_key(&coordinate.velocity) {
                 continue;
             }
-            let letter = Letter::new(&coordinate.name.text);
+            let letter = names.declared(&coordinate.name.text);
             let kinds = [Kind::Position, Kind::Velocity, Kind::Acceleration];
             let symbols = [
                 coordinate.position,
@@ -167,13 +184,40 @@ impl Names {
             .cloned()
             .unwrap_or_else(|| Letter::new(name))
     }
+
+    /// Definitions that are roots, by what the root is of.
+    fn defined_roots(&self, system: &System) -> SortedMap<ExprId, (Rational, Letter)> {
+        let mut roots = SortedMap::new();
+        for (name, e) in &system.defined {
+            if let Node::Product(factors) = system.pool.node(*e)
+                && let [(base, power)] = factors[..]
+                && !power.is_integer()
+            {
+                roots.insert(base, (power, self.declared(name)));
+            }
+        }
+        roots
+    }
 }
 
-/// Letters of the fields. A letter stands for one thing only; the second keeps its name.
-fn fields(declaration: &Declaration, system: &System) -> SortedMap<String, Letter> {
-    let coordinates = system.coordinates.iter();
-    let mut taken: Vec<Letter> = coordinates.map(|c| Letter::new(&c.name.text)).collect();
+/// Letters of coordinates, fields and definitions. A letter stands for one thing only: where it is that of a force or of something
+/// declared before, a name stays as it is.
+fn declared(declaration: &Declaration, system: &System) -> SortedMap<String, Letter> {
+    let mut taken: Vec<Letter> = forces(system).into_iter().map(|(_, force)| force).collect();
+    taken.push(Letter::new("t"));
     let mut declared = SortedMap::new();
+    let mut give = |name: &str, letter: Letter| {
+        let mut free = [letter, Letter::new(name)]
+            .into_iter()
+            .find(|letter| !taken.iter().any(|other| other.looks_like(letter)));
+        let letter = free.take().unwrap_or_else(|| Letter::of(name, ""));
+        taken.push(letter.clone());
+        declared.insert(name.to_owned(), letter);
+    };
+    for coordinate in &system.coordinates {
+        let name = &coordinate.name.text;
+        give(name, Letter::new(name));
+    }
     for field in &declaration.fields {
         let name = &field.name.text;
         let mut letter = match field.letter.as_str() {
@@ -181,27 +225,29 @@ fn fields(declaration: &Declaration, system: &System) -> SortedMap<String, Lette
             letter => Letter::new(letter),
         };
         letter.tex = field.tex.clone();
-        if taken.contains(&letter) {
-            letter = Letter::new(name);
-        }
-        taken.push(letter.clone());
-        declared.insert(name.clone(), letter);
+        give(name, letter);
+    }
+    for (name, _) in &system.defined {
+        give(name, Letter::new(name));
     }
     declared
 }
 
-/// Definitions that are roots, by what the root is of.
-fn roots(system: &System) -> SortedMap<ExprId, (Rational, Letter)> {
-    let mut roots = SortedMap::new();
-    for (name, e) in &system.defined {
-        if let Node::Product(factors) = system.pool.node(*e)
-            && let [(base, power)] = factors[..]
-            && !power.is_integer()
-        {
-            roots.insert(base, (power, Letter::new(name)));
+/// T, V, E and h, or what says the same where these letters are declared.
+fn energies(declared: &SortedMap<String, Letter>) -> Energies {
+    let free = |usual: &str, otherwise: (&str, &str)| {
+        let usual = Letter::new(usual);
+        match declared.values().any(|letter| letter.looks_like(&usual)) {
+            true => Letter::of(otherwise.0, otherwise.1),
+            false => usual,
         }
+    };
+    Energies {
+        kinetic: free("T", ("E", "kin")),
+        potential: free("V", ("E", "pot")),
+        total: free("E", ("E", "tot")),
+        jacobi: free("h", ("h", "J")),
     }
-    roots
 }
 
 /// Letters of multipliers and applied forces.

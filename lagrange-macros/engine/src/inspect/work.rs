@@ -1,7 +1,8 @@
 //! What the parts of the derivation share while it is read off.
 
 use super::costs::Counts;
-use super::formula::Formula;
+use super::formula::{Formula, Statement};
+use super::letter::Letter;
 use super::names::Names;
 use super::readable::Reader;
 use super::shown::{UnknownMode, shown};
@@ -106,8 +107,10 @@ pub(super) fn derivation(
     };
     let (shown, mode_count) = shown(system, mode)?;
     work.solves = shown.len() <= MOST_SOLVED;
-    let kinetic = work.kinetic();
+    let equal = |letter: &Letter, value| Statement::equal(Formula::Letter(letter.clone()), value);
+    let kinetic = equal(&names.energies.kinetic, work.kinetic());
     let potential = work.formula_of(equations.structure.energy.1);
+    let potential = equal(&names.energies.potential, potential);
     let bodies = work.bodies(declaration);
     let motion = work.motion();
     let rows = work.rows();

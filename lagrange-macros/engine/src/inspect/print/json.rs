@@ -32,8 +32,8 @@ use crate::inspect::{
 /// The whole derivation as JSON.
 pub fn json(d: &Derivation) -> String {
     let energies = object(&[
-        ("kinetic", formula(&d.kinetic)),
-        ("potential", formula(&d.potential)),
+        ("kinetic", formula(&d.kinetic.right)),
+        ("potential", formula(&d.potential.right)),
     ]);
     let whole = object(&[
         ("schema", quoted("lagrange.derivation.1")),

@@ -245,7 +245,7 @@ fn a_free_body_obeys_euler() {
     ];
     assert_eq!(motion, expected);
     assert_eq!(
-        print::text::formula(&d.kinetic),
+        print::text::formula(&d.kinetic.right),
         "½ I₀ ω₀² + ½ I₁ ω₁² + ½ I₂ ω₂²"
     );
     assert_eq!(
