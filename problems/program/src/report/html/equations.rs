@@ -42,12 +42,7 @@ pub(super) fn equations(run: &Shown) -> String {
     };
     let title = escaped(&run.title);
     let (declared, bodies) = (declared(&derived), bodies(&derived));
-    let energies: String = [("T", &derived.kinetic), ("V", &derived.potential)]
-        .map(|(name, value)| {
-            let name = Formula::Letter(Letter::new(name));
-            titled(&Statement::equal(name, value.clone()))
-        })
-        .concat();
+    let energies = [&derived.kinetic, &derived.potential].map(titled).concat();
     let motion: String = derived
         .motion
         .iter()
