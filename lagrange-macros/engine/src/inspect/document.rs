@@ -115,7 +115,7 @@ impl Derivation {
             ));
         }
         blocks.push(Block::Heading(2, ENERGIES.to_owned()));
-        let energies = [&self.kinetic, &self.potential].into_iter();
+        let energies = self.energies();
         blocks.push(Block::Equations(
             energies.map(|e| (Vec::new(), e.clone())).collect(),
         ));

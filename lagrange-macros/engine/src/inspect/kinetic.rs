@@ -1,4 +1,4 @@
-//! The kinetic energy, by velocities where that reads better.
+//! The kinetic energy, by velocities where that reads better, and what a Lagrangian has beside T − V.
 
 use super::formula::Formula;
 use super::work::Work;
@@ -24,6 +24,35 @@ impl Work<'_> {
             }
             None => as_is,
         }
+    }
+
+    /// What a declared Lagrangian has beside T − V where that is linear in the velocities, as of a charge in a magnetic field.
+    pub fn linear(&mut self) -> Option<Formula> {
+        let system = &self.equations.system;
+        if !system.from_lagrangian {
+            return None;
+        }
+        let velocities: Vec<Symbol> = system.coordinates.iter().map(|c| c.velocity).collect();
+        let declared: Vec<ExprId> = system.kinetic.iter().map(|term| term.energy).collect();
+        let kinetic = self.output(self.equations.structure.energy.0);
+        let pool = self.pool();
+        let declared = pool.sum(&declared);
+        let rest = pool.sub(declared, kinetic);
+        let rest = self.reader.multiplied_out(rest).unwrap_or(rest);
+        let (coefficients, beside) = self.pool().coefficients_linear(rest, &velocities)?;
+        let pool = self.pool();
+        if pool.is_zero(rest) || !pool.is_zero(beside) {
+            return None;
+        }
+        let terms = coefficients.into_iter().zip(velocities);
+        let terms: Vec<ExprId> = terms
+            .map(|(coefficient, velocity)| {
+                let velocity = pool.leaf(velocity);
+                pool.mul(coefficient, velocity)
+            })
+            .collect();
+        let sum = pool.sum(&terms);
+        Some(self.reader.formula(sum))
     }
 
     /// ½ vᵀM v if that is T: it is, if M is free of v, and T and ∂T/∂v vanish with v.

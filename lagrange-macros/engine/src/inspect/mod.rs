@@ -53,6 +53,8 @@ pub struct Derivation {
     pub kinetic: Statement,
     /// V = …
     pub potential: Statement,
+    /// L = T − V + what is linear in the velocities, where a declared Lagrangian has such.
+    pub lagrangian: Option<Statement>,
     /// Rates and axes of the bodies in space that formulas speak of.
     pub bodies: Vec<Body>,
     /// One per coordinate: inertia = forces.
@@ -79,6 +81,15 @@ pub struct Derivation {
     pub hints: Vec<String>,
     /// What was left out for length, and the like.
     pub notes: Vec<String>,
+}
+
+impl Derivation {
+    /// T, V and, where it has more than these, L.
+    pub fn energies(&self) -> impl Iterator<Item = &Statement> {
+        [&self.kinetic, &self.potential]
+            .into_iter()
+            .chain(&self.lagrangian)
+    }
 }
 
 /// A body in space whose rates are velocities.

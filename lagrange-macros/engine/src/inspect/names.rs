@@ -1,5 +1,6 @@
 //! Which letter stands for what, and in which order letters are written.
 
+use super::formula::{Formula, Statement};
 use super::letter::Letter;
 use crate::ast::Declaration;
 use crate::model::{Body, Coordinate, System};
@@ -54,6 +55,21 @@ pub struct Energies {
     pub total: Letter,
     /// The Jacobi integral h.
     pub jacobi: Letter,
+    /// L
+    pub lagrangian: Letter,
+}
+
+impl Energies {
+    /// L = T − V + what is linear in the velocities.
+    pub fn lagrangian(&self, linear: Formula) -> Statement {
+        let letter = |letter: &Letter| Formula::Letter(letter.clone());
+        let parts = [
+            letter(&self.kinetic),
+            letter(&self.potential).negated(),
+            linear,
+        ];
+        Statement::equal(letter(&self.lagrangian), Formula::sum(parts))
+    }
 }
 
 /// Letters that physicists write before others in a product, class by class.
@@ -247,6 +263,7 @@ fn energies(declared: &SortedMap<String, Letter>) -> Energies {
         potential: free("V", ("E", "pot")),
         total: free("E", ("E", "tot")),
         jacobi: free("h", ("h", "J")),
+        lagrangian: free("L", ("L", "all")),
     }
 }
 

@@ -111,6 +111,9 @@ pub(super) fn derivation(
     let kinetic = equal(&names.energies.kinetic, work.kinetic());
     let potential = work.formula_of(equations.structure.energy.1);
     let potential = equal(&names.energies.potential, potential);
+    let lagrangian = work
+        .linear()
+        .map(|linear| names.energies.lagrangian(linear));
     let bodies = work.bodies(declaration);
     let motion = work.motion();
     let rows = work.rows();
@@ -139,6 +142,7 @@ pub(super) fn derivation(
         declared: super::declared::items(declaration, &names),
         kinetic,
         potential,
+        lagrangian,
         bodies,
         motion,
         rows,

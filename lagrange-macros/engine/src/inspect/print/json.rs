@@ -4,7 +4,7 @@
 //! { "schema": "lagrange.derivation.1", "name", "summary",
 //!   "symbols":   [{ "name", "letter": F, "text", "unit" }],
 //!   "declared":  [{ "item", "name", "parts": [text | F | S] }],
-//!   "energies":  { "kinetic": F, "potential": F },
+//!   "energies":  { "kinetic": F, "potential": F, "lagrangian": S | null },
 //!   "bodies":    [{ "name", "text", "definitions": [S] }],
 //!   "motion":    [{ "coordinate": F, "equation": S }],
 //!   "rows":      [{ "name", "kind", "declared": S, "acceleration": S, "multiplier": F, "acts" }],
@@ -34,6 +34,10 @@ pub fn json(d: &Derivation) -> String {
     let energies = object(&[
         ("kinetic", formula(&d.kinetic.right)),
         ("potential", formula(&d.potential.right)),
+        (
+            "lagrangian",
+            d.lagrangian.as_ref().map_or("null".to_owned(), statement),
+        ),
     ]);
     let whole = object(&[
         ("schema", quoted("lagrange.derivation.1")),

@@ -5,7 +5,7 @@ use crate::outcome::Outcome;
 use lagrange_core::prelude::*;
 use lagrange_engine::inspect::print::mathml::{self, escaped};
 use lagrange_engine::inspect::print::{said, titled};
-use lagrange_engine::inspect::{self, Formula, Guard, Letter, Statement};
+use lagrange_engine::inspect::{self, Formula, Guard, Letter};
 use lagrange_engine::inspect_without;
 use std::fmt::Write;
 
@@ -42,7 +42,7 @@ pub(super) fn equations(run: &Shown) -> String {
     };
     let title = escaped(&run.title);
     let (declared, bodies) = (declared(&derived), bodies(&derived));
-    let energies = [&derived.kinetic, &derived.potential].map(titled).concat();
+    let energies: String = derived.energies().map(titled).collect();
     let motion: String = derived
         .motion
         .iter()
