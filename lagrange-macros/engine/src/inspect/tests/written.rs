@@ -46,7 +46,7 @@ fn potential(expression: TokenStream) -> String {
         #[lagrange(coordinates(x, y), kinetic = m/2 * (der(x)^2 + der(y)^2), potential = #expression)]
         struct Particle { m: f64, a: f64, b: f64, g: f64 }
     });
-    print::text::formula(&d.potential)
+    print::text::formula(&d.potential.right)
 }
 
 #[test]
