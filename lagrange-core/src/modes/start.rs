@@ -30,6 +30,7 @@ pub fn begin<T: Scalar>(
     status: &mut ConstraintStatus,
 ) -> Result<(), Error> {
     domain::check_parameters(dynamics, t.value())?;
+    status.apart.clear();
     status.look(dynamics, t, state, tolerance);
     domain::check(dynamics, &status.mode, t.value(), &mut status.form)?;
     if project {
@@ -51,7 +52,7 @@ pub fn begin<T: Scalar>(
     if !project {
         refuse_other_velocities(dynamics, rate)?;
     }
-    if project_onto(dynamics, t, state, &status.mode)? {
+    if settle(dynamics, t, state, tolerance, status)? {
         if !project {
             refuse_other_positions(
                 dynamics,
@@ -65,6 +66,45 @@ pub fn begin<T: Scalar>(
         dynamics.set_mode(&status.mode);
     }
     Ok(())
+}
+
+/// Moves a state onto what holds in its mode, which is that of `dynamics`; whether it had to. Both sides of a slot that is narrower than what counts
+/// as zero cannot be closed at once: contacts above their surface stay open where they cannot be closed together with those before them.
+fn settle<T: Scalar>(
+    dynamics: &mut Dynamics<T>,
+    t: T,
+    state: &mut State<T>,
+    tolerance: Tolerance<'_>,
+    status: &mut ConstraintStatus,
+) -> Result<bool, Error> {
+    let given = state.clone();
+    let error = match project_onto(dynamics, t, state, &status.mode) {
+        Err(error) if status.above().next().is_some() => error,
+        outcome => return outcome,
+    };
+    let mut apart: Vec<usize> = status.above().collect();
+    let mut without = |apart: &[usize], state: &mut State<T>| {
+        state.clone_from(&given);
+        status.apart.clear();
+        status.apart.extend_from_slice(apart);
+        status.look(dynamics, t, state, tolerance);
+        dynamics.set_mode(&status.mode);
+        project_onto(dynamics, t, state, &status.mode)
+    };
+    if without(&apart, state).is_err() {
+        return Err(error);
+    }
+    for contact in apart.clone() {
+        let closed = apart
+            .iter()
+            .copied()
+            .filter(|&c| c != contact)
+            .collect::<Vec<_>>();
+        if without(&closed, state).is_ok() {
+            apart = closed;
+        }
+    }
+    without(&apart, state).map(|_| true)
 }
 
 /// Moves positions that are below surfaces onto them. Velocities stay: a body may leave a surface, or arrive at it, where it begins.

@@ -29,6 +29,8 @@ pub struct ConstraintStatus {
     gaps: Vec<(usize, f64, f64)>,
     /// Contacts whose gap is negative outside their region.
     pub below: Vec<usize>,
+    /// Contacts that are open although their gap counts as zero: they cannot be closed together with others.
+    pub apart: Vec<usize>,
     /// Needs of everything that is looked at.
     pub needs: OutputMask,
     /// Memory for the quadratic form of the kinetic energy.
@@ -44,6 +46,7 @@ impl ConstraintStatus {
             residuals: Vec::new(),
             gaps: Vec::new(),
             below: Vec::new(),
+            apart: Vec::new(),
             needs: guard::all_row_needs(description, &OutputMask::new(description)),
             form: Vec::new(),
         }
@@ -130,6 +133,12 @@ impl ConstraintStatus {
         gaps.filter_map(move |&(c, gap, size)| (-gap > near * size).then_some(c))
     }
 
+    /// The closed contacts above their surface.
+    pub fn above(&self) -> impl Iterator<Item = usize> {
+        let gaps = self.gaps.iter();
+        gaps.filter_map(|&(c, gap, _)| (gap > 0.0 && self.mode.contacts[c]).then_some(c))
+    }
+
     fn look_at_contact<T: Scalar>(&mut self, c: usize, view: &View<T>) {
         let d = view.dynamics.description();
         let contact = &d.contacts[c];
@@ -142,7 +151,7 @@ impl ConstraintStatus {
             return;
         }
         self.gaps.push((c, gap, extent));
-        if gap.abs() > near * extent {
+        if gap.abs() > near * extent || self.apart.contains(&c) {
             return;
         }
         let rate = view.number(row.velocity);
