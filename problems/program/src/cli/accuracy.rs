@@ -3,6 +3,7 @@
 use super::Trouble;
 use super::output::{Output, draw, ready};
 use super::run_args::Motion;
+use super::shell;
 use super::terminal::{keep_what_is_done, patiently};
 use super::values::{picture, positive, tolerances};
 use crate::accuracy::family;
@@ -84,7 +85,10 @@ impl Measure {
             }
             measured => measured.map_err(Trouble::refused)?,
         };
-        let (format, target) = (self.output.format(), self.target);
+        let format = self.output.format();
+        let what = ["run".to_owned(), self.scene.clone()];
+        let run = shell::command(what.into_iter().chain(self.motion.arguments()));
+        let target = self.target.map(|target| (target, run.as_str()));
         self.output
             .write(|out| write(&accuracy, format, target, out))?;
         if let Some(path) = &self.plot {
@@ -105,13 +109,14 @@ impl Measure {
 fn write(
     accuracy: &Accuracy,
     format: Format,
-    target: Option<f64>,
+    target: Option<(f64, &str)>,
     out: &mut dyn Write,
 ) -> io::Result<()> {
+    let error = target.map(|(error, _)| error);
     match (format, target) {
         (Format::Table, None) => table::write(accuracy, out),
-        (Format::Table, Some(target)) => answer::write(accuracy, target, out),
-        (Format::Json, _) => json::write(accuracy, target, out),
-        (Format::Csv, _) => csv::write(accuracy, target, out),
+        (Format::Table, Some((error, run))) => answer::write(accuracy, error, run, out),
+        (Format::Json, _) => json::write(accuracy, error, out),
+        (Format::Csv, _) => csv::write(accuracy, error, out),
     }
 }

@@ -19,6 +19,7 @@ mod report;
 mod results;
 mod run;
 mod run_args;
+mod shell;
 mod stability;
 mod sweep;
 mod terminal;

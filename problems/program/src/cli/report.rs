@@ -3,6 +3,7 @@
 use super::compare::Comparison;
 use super::output::{ready, to_file, unwritten};
 use super::run_args::RunArgs;
+use super::shell;
 use super::terminal::{keep_what_is_done, patiently};
 use super::values::positive;
 use super::watch::watched;
@@ -177,7 +178,7 @@ impl Report {
         let usual = PathBuf::from(format!("report.{}", form.ending()));
         let path = self.output.as_deref().unwrap_or(&usual);
         if form == Form::Html {
-            let command = command(std::env::args());
+            let command = shell::command(std::env::args().skip(1));
             return to_file(path, |out| {
                 html::write(runs, self.speed, Some(&command), out)
             });
@@ -284,21 +285,6 @@ impl Report {
     }
 }
 
-/// The command that was given, for a shell: what it would take apart stands between quotes.
-fn command(arguments: impl Iterator<Item = String>) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+@%".contains(c);
-    let quoted = arguments.skip(1).map(|argument| {
-        match argument.is_empty() || !argument.chars().all(plain) {
-            true => format!("'{}'", argument.replace('\'', "'\\''")),
-            false => argument,
-        }
-    });
-    let words: Vec<String> = core::iter::once("lagrange".to_owned())
-        .chain(quoted)
-        .collect();
-    words.join(" ")
-}
-
 /// The scene, with the name of the file that describes the run, and what is different.
 fn title(name: &str, scene: &dyn Scene, comparison: Option<&Comparison>) -> String {
     let run = match name.strip_suffix(".toml") {
@@ -311,24 +297,5 @@ fn title(name: &str, scene: &dyn Scene, comparison: Option<&Comparison>) -> Stri
     match comparison {
         Some(comparison) => format!("{run}, {comparison}"),
         None => run,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::command;
-
-    #[test]
-    fn commands_can_be_given_to_a_shell_again() {
-        let given = [
-            "/usr/bin/lagrange",
-            "report",
-            "a b.toml",
-            "--set",
-            "name=it's",
-            "",
-        ];
-        let told = command(given.into_iter().map(str::to_owned));
-        assert_eq!(told, r"lagrange report 'a b.toml' --set 'name=it'\''s' ''");
     }
 }

@@ -107,6 +107,35 @@ impl Motion {
         })
     }
 
+    /// The arguments that say the same.
+    pub(super) fn arguments(&self) -> Vec<String> {
+        let numbers = |option: &'static str, list: &[(String, f64)]| {
+            let told = list.iter().map(|(name, value)| format!("{name}={value:?}"));
+            told.map(|told| [option.to_owned(), told])
+                .collect::<Vec<_>>()
+        };
+        let words = |option: &'static str, list: &[String]| {
+            let told = list.iter().cloned();
+            told.map(|told| [option.to_owned(), told])
+                .collect::<Vec<_>>()
+        };
+        let mut all = [
+            numbers("--set", &self.set),
+            words("--from", self.from.as_slice()),
+            numbers("--start", &self.start),
+            words("--with", &self.with),
+            words("--without", &self.without),
+            words("--end-after", &self.end_after),
+        ]
+        .concat()
+        .concat();
+        let until = self.until.map(|until| format!("--until={until:?}"));
+        all.extend(until);
+        all.extend(self.project.then(|| "--project".to_owned()));
+        all.extend(self.impacts.map(|how| format!("--impacts={how}")));
+        all
+    }
+
     /// What the arguments leave open is as in `base`.
     fn request(&self, base: Request) -> Request {
         let effects = self.without.iter().map(|name| (name.clone(), false));

@@ -4,8 +4,9 @@ use super::{duration, reference};
 use crate::accuracy::{Accuracy, Setting};
 use std::io::{self, Write};
 
-/// Writes the answer, and how much longer the other methods take; nothing if nothing reaches it.
-pub fn write(accuracy: &Accuracy, target: f64, mut out: impl Write) -> io::Result<()> {
+/// Writes the answer, how much longer the other methods take, and `run`, the command that was measured, with what is the fastest; nothing if
+/// nothing reaches the target.
+pub fn write(accuracy: &Accuracy, target: f64, run: &str, mut out: impl Write) -> io::Result<()> {
     let fastest = accuracy.fastest_of_each(target);
     let Some((setting, best)) = fastest.first() else {
         return Ok(());
@@ -28,12 +29,7 @@ pub fn write(accuracy: &Accuracy, target: f64, mut out: impl Write) -> io::Resul
         )?;
     }
     writeln!(out, "{}", reference(accuracy))?;
-    writeln!(
-        out,
-        "\nlagrange run {} {}",
-        accuracy.scene,
-        options(*setting)
-    )
+    writeln!(out, "\n{run} {}", options(*setting))
 }
 
 /// The options of `lagrange run` that mean a setting.
