@@ -165,6 +165,13 @@ fn a_target_is_answered_with_a_command() {
     let command: Vec<&str> = command.split(' ').skip(1).collect();
     assert_eq!(command[..2], ["run", "mass-on-shell"]);
     assert!(says(&command).contains("floor stop"));
+    // Of the run that was measured, not of the scene as it stands.
+    let asked = "--set mass=2 --start theta=0.3 --without sliding --until 0.5";
+    let asked: Vec<&str> = asked.split(' ').collect();
+    let answer = table("mass-on-shell", &[&asked, &arguments[..]].concat());
+    let command = answer.lines().last().expect("a command").split(' ');
+    let command: Vec<&str> = command.skip(3).take(asked.len()).collect();
+    assert_eq!(command, asked);
 
     let report = json("mass-on-shell", &arguments);
     let fastest = report["target"]["fastest"].as_array().expect("a list");

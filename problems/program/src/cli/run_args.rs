@@ -109,30 +109,33 @@ impl Motion {
 
     /// The arguments that say the same.
     pub(super) fn arguments(&self) -> Vec<String> {
-        let numbers = |option: &'static str, list: &[(String, f64)]| {
-            let told = list.iter().map(|(name, value)| format!("{name}={value:?}"));
-            told.map(|told| [option.to_owned(), told])
-                .collect::<Vec<_>>()
-        };
-        let words = |option: &'static str, list: &[String]| {
-            let told = list.iter().cloned();
-            told.map(|told| [option.to_owned(), told])
-                .collect::<Vec<_>>()
-        };
-        let mut all = [
-            numbers("--set", &self.set),
-            words("--from", self.from.as_slice()),
-            numbers("--start", &self.start),
-            words("--with", &self.with),
-            words("--without", &self.without),
-            words("--end-after", &self.end_after),
-        ]
-        .concat()
-        .concat();
-        let until = self.until.map(|until| format!("--until={until:?}"));
-        all.extend(until);
+        let number = |value: f64| format!("{value:?}").trim_end_matches(".0").to_owned();
+        let mut all = Vec::new();
+        let mut add = |option: &str, value: String| all.extend([option.to_owned(), value]);
+        for (name, value) in &self.set {
+            add("--set", format!("{name}={}", number(*value)));
+        }
+        for start in &self.from {
+            add("--from", start.clone());
+        }
+        for (name, value) in &self.start {
+            add("--start", format!("{name}={}", number(*value)));
+        }
+        let lists = [
+            ("--with", &self.with),
+            ("--without", &self.without),
+            ("--end-after", &self.end_after),
+        ];
+        for (option, list) in lists {
+            list.iter().for_each(|word| add(option, word.clone()));
+        }
+        if let Some(until) = self.until {
+            add("--until", number(until));
+        }
+        if let Some(how) = self.impacts {
+            add("--impacts", how.to_string());
+        }
         all.extend(self.project.then(|| "--project".to_owned()));
-        all.extend(self.impacts.map(|how| format!("--impacts={how}")));
         all
     }
 

@@ -1,7 +1,7 @@
 //! States that are made to satisfy their constraints: what is said of them wins over what rests, and rests only what friction holds.
 
 use lagrange_core::prelude::*;
-use lagrange_tests::agree;
+use lagrange_tests::{agree, event, run_by};
 
 /// A crank drives a slider on a rough guide.
 #[derive(Lagrangian, Clone, Debug)]
@@ -212,4 +212,55 @@ fn a_place_that_two_contacts_do_not_allow_opens_one() {
     let found = simulation.consistent(0.0, &leans, &near).expect("a state");
     agree("leans", found.q[2], 0.6_f64.acos(), 1e-12);
     agree("height", found.q[1], 0.4, 1e-12);
+}
+
+/// A mass in a slot, pushed to and fro.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = mass/2 * der(x)^2,
+    force(push: x = strength * cos(rate * t)),
+    contact(right: x <= play),
+    contact(left: x >= -play),
+    start(middle: x = 0),
+)]
+struct Slot {
+    mass: f64,
+    play: f64,
+    strength: f64,
+    rate: f64,
+}
+
+/// Where both sides of a slot are as near as what counts as zero one of them stays open. The mass lies at the right until the push turns, at ωt = π/2,
+/// and crosses in u/ω, with u − sin u = 2 play mω²/F.
+#[test]
+fn a_slot_may_be_narrower_than_what_counts_as_zero() {
+    for (play, strength, tolerance) in [
+        (1e-6, 1.0, 1e-6),
+        (3e-7, 2.0, 1e-6),
+        (2e-8, 1.0, 1e-6),
+        (4e-10, 0.5, 1e-9),
+        (9e-10, 3.0, 1e-9),
+    ] {
+        let scene = Slot {
+            mass: 0.7,
+            play,
+            strength,
+            rate: 30.0,
+        };
+        let begin = core::f64::consts::FRAC_PI_2 / scene.rate;
+        let width = 2.0 * play * scene.mass * scene.rate.powi(2) / strength;
+        let mut u = (6.0 * width).cbrt();
+        for _ in 0..20 {
+            u -= (u - u.sin() - width) / (1.0 - u.cos());
+        }
+        for method in ["auto", "dop853", "dopri5", "radau5"] {
+            let what = format!("{play:e} by {method} at {tolerance:e}");
+            let run = run_by(&scene, (method, tolerance), scene.at(Slot::MIDDLE), 0.1);
+            let lost = event(&run, "right", "lost").time;
+            let met = event(&run, "left", "impact").time;
+            agree(&what, lost, begin, 10.0 * tolerance);
+            agree(&what, met - begin, u / scene.rate, 10.0 * tolerance);
+        }
+    }
 }

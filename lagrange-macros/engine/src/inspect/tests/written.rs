@@ -40,6 +40,60 @@ fn names_become_letters() {
     );
 }
 
+/// Names that would be one letter are two, of coordinates, fields, definitions, forces and energies.
+#[test]
+fn a_letter_stands_for_one_thing() {
+    let d = derivation(quote! {
+        #[lagrange(
+            coordinates(x_1, x1),
+            define(m_1 = m1 + lambda_tie),
+            kinetic = m_1/2 * (der(x_1)^2 + der(x1)^2),
+            potential = V * x_1 * x1,
+            constraint(tie: x_1 == 2 * x1),
+        )]
+        struct Pair { m1: f64, lambda_tie: f64, V: f64 }
+    });
+    assert_eq!(
+        print::text::statement(&d.kinetic),
+        "T = ½ (m₁ + lambda_tie) (ẋ₁² + der(x1)²)"
+    );
+    assert_eq!(print::text::statement(&d.potential), "E_pot = V x₁ x1");
+    assert_eq!(
+        print::text::statement(&d.conserved[0].quantity),
+        "E = T + E_pot"
+    );
+    assert_eq!(
+        print::text::statement(&d.motion[1].statement),
+        "(m₁ + lambda_tie) der(der(x1)) = −V x₁ − 2 λ_tie"
+    );
+}
+
+/// Of a charge in a magnetic field, which does no work, neither T nor V tells.
+#[test]
+fn a_lagrangian_may_have_terms_linear_in_velocities() {
+    let d = derivation(quote! {
+        #[lagrange(
+            coordinates(x, y),
+            lagrangian = m/2 * (der(x)^2 + der(y)^2) + q*B/2 * (x*der(y) - y*der(x)) - k/2 * x^2,
+        )]
+        struct Charge { m: f64, q: f64, B: f64, k: f64 }
+    });
+    let told: Vec<String> = d.energies().map(print::text::statement).collect();
+    assert_eq!(
+        told,
+        [
+            "T = ½ m (ẋ² + ẏ²)",
+            "V = ½ k x²",
+            "L = T − V + ½ q B (x ẏ − y ẋ)"
+        ]
+    );
+    let alone = derivation(quote! {
+        #[lagrange(coordinates(x), lagrangian = m/2 * der(x)^2 - k/2 * x^2)]
+        struct Spring { m: f64, k: f64 }
+    });
+    assert!(alone.lagrangian.is_none());
+}
+
 /// A particle whose potential is whatever is to be written.
 fn potential(expression: TokenStream) -> String {
     let d = derivation(quote! {
