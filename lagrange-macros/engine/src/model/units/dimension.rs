@@ -81,6 +81,17 @@ impl Dimension {
         Dimension(exponents)
     }
 
+    /// The quotient of two dimensions with whole exponents.
+    pub const fn per(self, other: Dimension) -> Dimension {
+        let mut exponents = self.0;
+        let mut i = 0;
+        while i < exponents.len() {
+            exponents[i].0 -= other.0[i].0;
+            i += 1;
+        }
+        Dimension(exponents)
+    }
+
     /// Whether it is a plain number.
     pub fn is_one(self) -> bool {
         self == Dimension::ONE

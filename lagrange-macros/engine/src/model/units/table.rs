@@ -6,7 +6,7 @@ use crate::diagnostics::nearest;
 use crate::symbolic::Rational;
 
 /// Units and the power of ten by which they differ from the coherent unit of their dimension.
-const UNITS: [(&str, Dimension, i64); 26] = [
+const UNITS: [(&str, Dimension, i64); 32] = [
     ("m", Dimension::LENGTH, 0),
     ("g", Dimension::MASS, -3),
     ("s", Dimension::TIME, 0),
@@ -31,6 +31,16 @@ const UNITS: [(&str, Dimension, i64); 26] = [
     ("H", Dimension::electrical([1, 2, -2, -2]), 0),
     ("T", Dimension::electrical([1, 0, -2, -1]), 0),
     ("Wb", Dimension::electrical([1, 2, -2, -1]), 0),
+    ("lm", Dimension::base(6), 0),
+    (
+        "lx",
+        Dimension::base(6).per(Dimension::mechanical(0, 2, 0)),
+        0,
+    ),
+    ("Bq", Dimension::mechanical(0, 0, -1), 0),
+    ("Gy", Dimension::mechanical(0, 2, -2), 0),
+    ("Sv", Dimension::mechanical(0, 2, -2), 0),
+    ("kat", Dimension::base(5).per(Dimension::TIME), 0),
     ("bar", Dimension::mechanical(1, -1, -2), 5),
     ("\u{c5}", Dimension::LENGTH, -10),
 ];

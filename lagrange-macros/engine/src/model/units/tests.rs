@@ -36,6 +36,29 @@ fn ways_of_writing_one_unit() {
             "{text}"
         );
     }
+    // The derived units of the SI (BIPM 2019, table 4), each by what the brochure says that it is.
+    for (named, by_base_units) in [
+        ("Hz", "1/s"),
+        ("Pa", "N/m^2"),
+        ("W", "J/s"),
+        ("C", "A s"),
+        ("V", "W/A"),
+        ("F", "C/V"),
+        ("ohm", "V/A"),
+        ("S", "A/V"),
+        ("Wb", "V s"),
+        ("T", "Wb/m^2"),
+        ("H", "Wb/A"),
+        ("lm", "cd sr"),
+        ("lx", "lm/m^2"),
+        ("Bq", "1/s"),
+        ("Gy", "J/kg"),
+        ("Sv", "J/kg"),
+        ("kat", "mol/s"),
+    ] {
+        let of = |text| unit(text).expect("a unit").dimension;
+        assert_eq!(of(named), of(by_base_units), "{named}");
+    }
     assert_eq!(unit("kg m^2/s^2").unwrap().text, "kg m\u{b2}/s\u{b2}");
     assert_eq!(unit("N.m").unwrap().text, "N m");
     assert_eq!(unit("1").unwrap().text, "");
