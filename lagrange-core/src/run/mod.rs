@@ -1,6 +1,7 @@
 //! The loop of a run: step, look for the first thing that happens, switch, go on.
 
 mod accumulation;
+mod acting;
 mod cause;
 mod corners;
 mod dead_centre;
@@ -17,6 +18,7 @@ mod jam;
 pub(crate) mod lockstep;
 mod log;
 mod outlook;
+mod piece;
 mod redundant;
 mod region;
 mod resolution;
@@ -43,6 +45,7 @@ use crate::state::FixedComponents;
 use crate::system::Erased;
 use crate::system::{Description, Watch};
 use crate::trajectory::{EventKind, State, Subject, Trajectory, Work};
+use acting::acting;
 use core::ops::Range;
 use corners::Lagrangian;
 use hidden::Hidden;
@@ -155,13 +158,14 @@ impl<T: Scalar> Run<T> {
         let mut state = State::new(vec![T::default(); n], vec![T::default(); n]);
         state.name(d);
         let mode = Mode::open(d);
+        let acting = acting(&system, &settings.effects);
         let mut run = Run {
             dynamics: Dynamics::of(system.clone(), &settings.effects),
             stepper: Stepper::new(settings, d, &state),
-            hidden: Hidden::new(&system, &settings.effects),
+            hidden: Hidden::new(&system, &acting),
             strengths_vary: domain::strengths_vary(d),
-            may_jump: hidden::may_jump(&system, &settings.effects),
-            changes_with_time: hidden::changes_with_time(&system, &settings.effects),
+            may_jump: acting.may_jump(),
+            changes_with_time: acting.reads_time(),
             lagrangian: Lagrangian::new(&system, &settings.effects),
             rank: Rank::new(d, &settings.effects),
             locator: Locator::new(d, settings, &mode),
@@ -194,7 +198,7 @@ impl<T: Scalar> Run<T> {
     /// Takes another system of the same kind.
     pub(crate) fn set_system(&mut self, system: Erased<T>) {
         if self.hidden.is_some() {
-            self.hidden = Hidden::new(&system, &self.settings.effects);
+            self.hidden = Hidden::new(&system, &acting(&system, &self.settings.effects));
         }
         if self.lagrangian.is_some() {
             self.lagrangian = Lagrangian::new(&system, &self.settings.effects);
