@@ -292,7 +292,8 @@ impl<T: Scalar> Compiled<T> {
                     held: &self.row_needs,
                     extra: &no_series,
                     report: None,
-                    part: Part::Rows,
+                    part: Part::Outputs,
+                    forcing: false,
                 };
                 rows.push(Interpreted::load(system, self.planned(), &asked, numbers));
             }
@@ -330,7 +331,7 @@ impl<T: Scalar> Compiled<T> {
     fn loaded(&mut self, part: Part) -> &mut Loaded<T> {
         match part {
             Part::Solution => &mut self.interpreted,
-            Part::Outputs | Part::Rows => &mut self.outputs,
+            Part::Outputs => &mut self.outputs,
         }
     }
 }

@@ -83,6 +83,7 @@ impl Held {
             extra: &self.extra,
             report: self.reports.then_some(&self.report),
             part,
+            forcing: true,
         }
     }
 }

@@ -51,6 +51,8 @@ pub(super) struct Asked<'a> {
     pub report: Option<&'a OutputMask>,
     /// How much of the equations it is.
     pub part: Part,
+    /// Whether outputs of the forcing are held. With rows they are not: the forces that they consist of are not asked for.
+    pub forcing: bool,
 }
 
 /// Which part of the equations is loaded.
@@ -60,8 +62,6 @@ pub(super) enum Part {
     Solution,
     /// Outputs.
     Outputs,
-    /// Outputs without the forcing: the forces that it consists of are not asked for with rows.
-    Rows,
 }
 
 /// What the equations of a mode are loaded from.
@@ -79,7 +79,7 @@ impl<'a, T> Planned<'a, T> {
     fn constants(self, d: &Description, part: Part) -> &'a [T] {
         match part {
             Part::Solution => self.constants,
-            Part::Outputs | Part::Rows => &self.constants[..d.constants.outputs],
+            Part::Outputs => &self.constants[..d.constants.outputs],
         }
     }
 }
@@ -429,9 +429,8 @@ fn shape<T: Scalar>(
     let outputs = builder.load(&d.motion, &motion, of_motion, &inputs[..1 + 2 * n]);
     let held_nodes = outputs.iter().enumerate();
     let held_nodes = held_nodes.filter_map(|(node, register)| Some((node, (*register)?)));
-    let is_whole = |&(node, _): &(usize, _)| {
-        asked.part != Part::Rows || !d.forcing.contains(&ValueRef::Node(node))
-    };
+    let is_whole =
+        |&(node, _): &(usize, _)| asked.forcing || !d.forcing.contains(&ValueRef::Node(node));
     let held_nodes: Vec<(usize, Register)> = held_nodes.filter(is_whole).collect();
     let outputs = outputs.into_iter().map(Option::unwrap_or_default);
     let mut nodes: Vec<Register> = outputs.collect();

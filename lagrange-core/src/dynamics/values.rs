@@ -294,7 +294,7 @@ impl<T: Scalar> Dynamics<T> {
     fn in_front(&mut self) -> &mut Interpreted<T> {
         let compiled = &mut self.modes[self.current];
         match compiled.held.selected {
-            Some(Part::Outputs | Part::Rows) => compiled.outputs(),
+            Some(Part::Outputs) => compiled.outputs(),
             Some(Part::Solution) | None => compiled.parts().2,
         }
     }
