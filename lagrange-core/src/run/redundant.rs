@@ -52,9 +52,7 @@ impl<T: Scalar> Run<T> {
             }
         }
         // Loads that are nothing now may be large again.
-        let redundant = &mut self.switcher.redundant;
-        redundant.largest = redundant.largest.max(sizes[0]);
-        sizes[0] = redundant.largest;
+        sizes[0] = self.switcher.redundant.largest_force(sizes[0]);
         let until = |last: usize| {
             let share = |first: usize| LAST_TERMS * sizes[first] / sizes[last];
             let times = (0..=last / 2).map(|first| share(first).powf(1.0 / (last - first) as f64));
