@@ -23,6 +23,7 @@ mod redundant;
 mod region;
 mod resolution;
 mod rest;
+mod sampled_step;
 mod samples;
 mod sides;
 mod singular;
@@ -30,6 +31,7 @@ mod stepping;
 mod stiffness;
 mod still;
 mod switch;
+mod taylor_step;
 
 use crate::arithmetic::{Scalar, epsilon};
 use crate::dynamics::{Dynamics, EvaluationError, OutputMask};

@@ -25,8 +25,11 @@ impl<T: Scalar> Run<T> {
             && self.now.state.v.iter().enumerate().all(rests)
     }
 
-    /// How long a step may be at rest.
+    /// How long a step may be at rest under load.
     pub(super) fn longest_at_rest(&self) -> f64 {
+        if !self.rests_under_load() {
+            return f64::INFINITY;
+        }
         match self.recorder.trajectory.work.steps {
             0 => FIRST * (self.end - self.begin),
             _ => GROWTH * self.stepper.step.h.value(),
