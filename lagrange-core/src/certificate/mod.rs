@@ -15,7 +15,11 @@
 mod equations;
 mod impact;
 mod instant;
+mod joins;
 mod motion;
+mod quadrature;
+mod sizes;
+mod step_error;
 #[cfg(test)]
 mod tests;
 mod watch;
