@@ -4,8 +4,9 @@
 use super::constants::Constants;
 use super::emitted::{Emitted, is_finite};
 use super::held::Held;
-use super::interpreted::{Asked, Interpreted, Part, Planned};
+use super::interpreted::Interpreted;
 use super::output_mask::{self, OutputMask};
+use super::shape::{Asked, Part, Planned};
 use crate::arithmetic::Scalar;
 use crate::effects::Effects;
 use crate::equations::Arguments;

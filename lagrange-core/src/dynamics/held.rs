@@ -1,7 +1,7 @@
 //! What of the programs is held in a mode: what its equations need, and what was asked for beside.
 
-use super::interpreted::{Asked, Part};
 use super::output_mask::OutputMask;
+use super::shape::{Asked, Part};
 use crate::system::Description;
 
 /// What is held in one mode. It stays while the motion is in other modes, and is made anew where something else is asked for.

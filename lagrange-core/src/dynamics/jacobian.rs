@@ -2,7 +2,7 @@
 //!
 //! From K w = b, with w = (u̇, −λ) already known: K ∂w = ∂b − ∂K w, so the factors of the value serve every column.
 
-use super::interpreted::{Extent, MOTION, SYSTEM};
+use super::shape::{Extent, MOTION, SYSTEM};
 use super::{Dynamics, Equations, EvaluationError};
 use crate::arithmetic::{Dual, Scalar};
 

@@ -1,7 +1,7 @@
 //! The equations of a mode as matrices, to look at and to compare with a derivation by hand.
 
 use super::Dynamics;
-use super::interpreted::{Extent, SYSTEM};
+use super::shape::{Extent, SYSTEM};
 use crate::arithmetic::Scalar;
 use crate::linear::{Freedom, dot, least_norm};
 use nalgebra::{DMatrix, DVector};

@@ -11,6 +11,7 @@ pub(crate) mod error;
 mod held;
 mod interpreted;
 mod jacobian;
+mod loading;
 mod matrices;
 mod output_mask;
 mod owner;
@@ -18,6 +19,7 @@ mod packets;
 mod projection;
 mod resultant;
 mod series;
+mod shape;
 mod slip_direction;
 mod stepping;
 #[cfg(test)]
@@ -41,7 +43,7 @@ use crate::system::{Description, ValueRef};
 use compiled::Compiled;
 use constants::Constants;
 use emitted::Emitted;
-use interpreted::Part;
+use shape::Part;
 
 /// What evaluates the equations of motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -15,7 +15,7 @@
 //! follows from N² = λ·λ by lower coefficients alone. Where λ vanishes, u is the direction in which it begins, that of its first coefficient λₘ,
 //! and the same holds of the coefficients from there on.
 
-use super::interpreted::{Extent, ResultantRegisters};
+use super::shape::{Extent, ResultantRegisters};
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::Scalar;
 use crate::linear::direction::{Vector, dot, length, settle};

@@ -9,7 +9,7 @@
 //! one factorization whatever the order; the sum runs over those matrix elements that change with the state.
 //! Reference: Griewank & Walther 2008, Evaluating Derivatives, section 13.2 (implicit relations).
 
-use super::interpreted::{Extent, REPORT, Shape};
+use super::shape::{Extent, REPORT, Shape};
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::products::Row;
 use crate::arithmetic::{Pack, Scalar};

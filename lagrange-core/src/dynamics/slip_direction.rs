@@ -14,7 +14,7 @@
 //! A slip may have one direction only, that of a foot about another one that sticks. A turn then does nothing to ṡ × u₀, and where the slip
 //! begins as τ² as well coefficient k + 1 says nothing of ψₖ: coefficient k + 2 does. Of several slips this may be so of combinations.
 
-use super::interpreted::Extent;
+use super::shape::Extent;
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::Scalar;
 use crate::linear::{VanishingCombinations, solve_small};

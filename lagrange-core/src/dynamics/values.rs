@@ -2,7 +2,8 @@
 
 use super::compiled::{Compiled, Outcome};
 use super::emitted::is_finite;
-use super::interpreted::{Extent, FORCES, Interpreted, MOTION, Part, REPORT, SYSTEM};
+use super::interpreted::Interpreted;
+use super::shape::{Extent, FORCES, MOTION, Part, REPORT, SYSTEM};
 use super::{Dynamics, Equations, EvaluationError};
 use crate::arithmetic::{Scalar, epsilon};
 use crate::equations::Arguments;
