@@ -182,7 +182,7 @@ struct Solution<'a, T> {
 impl<T: Scalar> Solution<'_, T> {
     /// Directions of slips that are given: (friction, components, their rates).
     fn slip_directions(&mut self) -> Vec<(usize, [Register; 2], [Register; 2])> {
-        let slip_directions = self.pattern.slip_directions.iter().map(|given| {
+        let slip_directions = self.pattern.sliding.slip_directions.iter().map(|given| {
             let components = given.nodes.map(|node| self.nodes[node]);
             let rates = [self.builder.fresh(), self.builder.fresh()];
             (given.friction, components, rates)
@@ -193,7 +193,7 @@ impl<T: Scalar> Solution<'_, T> {
     /// What presses frictions, where it is given.
     fn resultants(&mut self, d: &Description) -> Vec<ResultantRegisters> {
         let pattern = self.pattern;
-        let resultants = pattern.resultants.iter().map(|given| {
+        let resultants = pattern.sliding.resultants.iter().map(|given| {
             let constraints = d.resultants[given.resultant].iter();
             let forces = constraints.map(|&i| {
                 let row = d.constraints[i].row;
@@ -281,7 +281,7 @@ impl<T: Scalar> Solution<'_, T> {
             self.builder.copy(force(row), value);
         }
         let mut before: Option<(usize, Register)> = None;
-        for slide in &pattern.slides {
+        for slide in &pattern.sliding.slides {
             let factor = match slide.factor {
                 ValueRef::Zero => Register::ZERO,
                 ValueRef::Constant(at) => Register::new(self.constants + at),
