@@ -48,7 +48,7 @@ impl<T: Scalar> Run<T> {
         if self.recorder.trajectory.work.steps >= self.settings.max_steps {
             return Err(self.limit("steps", self.settings.max_steps));
         }
-        self.check_outlook()?;
+        self.check_reach()?;
         if let Some(monitor) = &self.settings.monitor {
             let time = self.now.t.value();
             monitor.tell(time);

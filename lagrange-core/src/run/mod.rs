@@ -6,34 +6,34 @@ mod advance;
 mod cause;
 mod corners;
 mod dead_centre;
+mod decaying_slip;
 mod evaluation;
 mod execution;
 mod extremal;
-mod fading;
 mod failure;
 mod feasible;
 mod guard_polynomials;
 mod hidden;
 mod hit;
-mod hits;
 mod impact;
 mod instant;
-mod jam;
+mod jamming;
+mod locator;
 pub(crate) mod lockstep;
 mod log;
-mod outlook;
 mod piece;
+mod reach;
 mod redundant;
 mod region;
 mod resolution;
-mod rest;
+mod rest_under_load;
 mod sampled_step;
 mod samples;
 mod sides;
 mod singular;
+mod spatial_slip;
 mod stepping;
 mod stiffness;
-mod still;
 mod switch;
 mod taylor_step;
 mod touching;
@@ -51,7 +51,7 @@ use crate::trajectory::{State, Trajectory};
 use acting::acting;
 use corners::Lagrangian;
 use hidden::Hidden;
-use hits::Locator;
+use locator::Locator;
 use log::Recorder;
 use singular::Rank;
 use stepping::Stepper;
@@ -73,7 +73,7 @@ pub(crate) struct Run<T: Scalar> {
     dynamics: Dynamics<T>,
     now: Now<T>,
     stepper: Stepper<T>,
-    /// Of what is declared, if there are any.
+    /// Exponents, powers, angles and roots in what is declared, if there are any.
     hidden: Option<Hidden>,
     /// Whether the strength of a friction follows from the state.
     strengths_vary: bool,
@@ -81,7 +81,7 @@ pub(crate) struct Run<T: Scalar> {
     may_jump: bool,
     /// Whether what acts is a function of time.
     changes_with_time: bool,
-    /// Of what is declared, if a choice in it may change.
+    /// The declared Lagrangian, if a choice in it may change.
     lagrangian: Option<Lagrangian>,
     /// Watches for positions where constraints lose rank.
     rank: Rank,

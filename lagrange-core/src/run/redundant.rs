@@ -33,7 +33,7 @@ const LAST_TERMS: f64 = 1e-6;
 
 impl<T: Scalar> Run<T> {
     /// Looks at the forces at the last value of the dynamics, in the mode of the run; whether other guards decide than before.
-    pub(super) fn look_at_redundant_forces(&mut self) -> bool {
+    fn look_at_redundant_forces(&mut self) -> bool {
         let was_open = self.switcher.redundant.has_open();
         self.switcher.redundant.follow(&mut self.dynamics);
         (was_open || self.switcher.redundant.has_open()) && self.list_guards()

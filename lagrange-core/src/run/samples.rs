@@ -6,7 +6,7 @@
 //! Roots of the interpolation are then moved to where the guard vanishes on the dense output.
 
 use super::hit::Hit;
-use super::{Run, still};
+use super::{Run, rest_under_load};
 use crate::arithmetic::Scalar;
 use crate::dynamics::EvaluationError;
 use crate::events::{Direction, Root, RootList, roots};
@@ -59,7 +59,7 @@ impl<T: Scalar> Run<T> {
             }
         }
         if guarded && self.rests_under_load() {
-            for s in still::WITHIN {
+            for s in rest_under_load::WITHIN {
                 self.evaluate_end(s)?;
                 worst = worse(worst, self.defect_of_interpolation(s));
             }

@@ -40,7 +40,7 @@ pub(super) struct Stepper<T> {
     pub(super) stiffness: Stiffness<T>,
     pub(super) resolution: Resolution,
     pub(super) step: StepPolynomial<T>,
-    /// Powers of the length of the step.
+    /// Powers of the step length, h⁰ … hᵖ.
     pub(super) powers: Row<f64>,
     /// State where the step ends.
     pub(super) scratch: State<T>,

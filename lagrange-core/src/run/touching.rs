@@ -44,7 +44,7 @@ impl<T: Scalar> Run<T> {
         place.map_or(0.0, |place| self.dynamics.motion(place).value())
     }
 
-    /// Whether contact `c` is none that is known to touch, to be below its surface or at the edge of it.
+    /// Whether contact `c` may touch: it takes part, and it is not known to touch, to be below its surface or to be at the edge of it.
     pub(super) fn may_touch(&self, c: usize, facts: &SwitchFacts) -> bool {
         let takes_part = self
             .dynamics

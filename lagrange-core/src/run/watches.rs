@@ -201,7 +201,7 @@ impl<T: Scalar> Run<T> {
         known.then(|| resolution.max(2.0 * (start / rate).abs()))
     }
 
-    /// The part of the step within which a zero of a term of a mark is that of the end of the last step.
+    /// The part of the step within which a zero of a term of a mark counts as the one at the end of the last step.
     fn within(&self, mark: usize, term: usize, resolution: f64) -> f64 {
         let step = &self.stepper.step;
         match self.locator.mark_passed[mark] == Some(term) {

@@ -34,11 +34,11 @@ struct GuardPolynomial {
     guard: Guard,
     /// What it is made of, where that does not change along the mode.
     linear: Option<Linear>,
-    /// Of its coefficients, with Taylor series.
+    /// Sums of its coefficients, with Taylor series.
     sums: Sums,
     /// Whether it stays positive for certain.
     stays: bool,
-    /// What is added to the guard: that far it may fall below zero.
+    /// Added to the guard, so that it may fall this far below zero.
     margin: f64,
 }
 
@@ -51,13 +51,13 @@ pub(super) struct GuardPolynomials {
     pub(super) composites: Vec<CompositeGuard>,
     /// Per branch: whether the mode holds it at its border, where its guard is rounding and is not watched.
     pub(super) held: Vec<bool>,
-    /// One after the other, each of `width` coefficients.
+    /// Coefficients of all polynomials, one after the other, `width` of each.
     coefficients: Vec<f64>,
     width: usize,
     /// The stops and marks that take part.
     pub(super) stops: Vec<usize>,
     pub(super) marks: Vec<usize>,
-    /// Terms of those before the first of each.
+    /// Number of terms before the first term of each stop and of each mark.
     first_stop: Vec<usize>,
     first_mark: Vec<usize>,
     watches: Vec<Guard>,
@@ -227,7 +227,7 @@ impl GuardPolynomials {
         self.coefficients.resize(self.list.len() * width, 0.0);
     }
 
-    /// Takes the guards from the series that `dynamics` holds; `powers` are those of the length of the step.
+    /// Takes the guards from the series that `dynamics` holds; `powers` are the powers of the step length, h⁰ … hᵖ.
     #[inline(never)]
     pub(super) fn take_series<T: Scalar>(
         &mut self,

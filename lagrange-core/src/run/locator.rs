@@ -4,7 +4,7 @@ use super::Run;
 use super::guard_polynomials::{CLEAR, GuardPolynomials};
 use super::hit::Hit;
 use super::region::is_edge_in_flight;
-use super::rest::Rest;
+use super::spatial_slip::Rest;
 use super::watches::RESOLUTION;
 use crate::arithmetic::{Scalar, epsilon};
 use crate::events::{Direction, deflate, first_root};
@@ -30,18 +30,18 @@ pub(super) struct Locator<T> {
     pub(super) lies: bool,
     /// Forces that are at their limit, with their sizes.
     pub(super) at_limit: Vec<(Guard, f64)>,
-    /// How far these are off, relative, because the directions of slips that have nearly vanished are.
+    /// Relative error of these forces, from the directions of slips that have nearly vanished.
     pub(super) blur: f64,
     /// Falling guards found in the present step: (guard, part of the step, half width).
     falls: Vec<(Guard, f64, f64)>,
     pub(super) fallen: Vec<Guard>,
     /// Composite guards that seemed to fall in the present step where forces keep all bounds.
     pub(super) refuted: Vec<CompositeGuard>,
-    /// Slips of two components that come to rest with it.
+    /// Slips of two components that come to rest with the end of the step.
     pub(super) rests: Vec<Rest>,
-    /// The mode with those at rest.
+    /// The mode in which these slips are at rest.
     pub(super) resting: Mode,
-    /// Velocities a little before that.
+    /// Velocities a little before they come to rest.
     pub(super) earlier: Vec<T>,
     /// Per stop, which of its terms are below zero,
     pub(super) stop_below: Vec<Vec<bool>>,
