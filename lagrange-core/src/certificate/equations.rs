@@ -48,7 +48,7 @@ pub(super) struct Situation<'a> {
     pub v: &'a [f64],
     /// Empty: zero.
     pub acceleration: &'a [f64],
-    /// Of every row; empty: zero.
+    /// The force of every row; empty: zero.
     pub forces: &'a [f64],
     /// Values of applied forces, for outputs; empty: zero.
     pub loads: &'a [f64],

@@ -98,7 +98,7 @@ pub enum Worked {
 }
 
 impl Declaration {
-    /// Of a struct whose declaration has mistakes: nothing is declared.
+    /// The declaration of a struct whose attribute has mistakes: nothing is declared.
     pub const NONE: Self = Self {
         words: &[],
         numbers: &[],
@@ -120,7 +120,7 @@ impl Declaration {
     }
 }
 
-/// Bytes of an operation.
+/// Length of an operation, bytes.
 const BYTES: usize = 12;
 
 /// Number of each operation; those of the macro are the same.

@@ -60,7 +60,7 @@ pub(crate) struct Operations {
 }
 
 impl Operations {
-    /// Those of the wanted values.
+    /// The operations that the wanted values are made of.
     pub(crate) fn of(
         declaration: &'static Declaration,
         wanted: impl IntoIterator<Item = usize>,
@@ -70,7 +70,7 @@ impl Operations {
         Self { declaration, list }.within(wanted)
     }
 
-    /// Of these, those that the wanted values are made of.
+    /// The operations among these that the wanted values are made of.
     fn within(&self, wanted: impl IntoIterator<Item = usize>) -> Self {
         let mut needed = vec![false; self.declaration.len()];
         wanted.into_iter().for_each(|value| needed[value] = true);

@@ -22,7 +22,7 @@ const MOST_INTERPRETED: usize = 12;
 #[derive(Clone, Debug)]
 pub(super) struct Compiled<T: Scalar> {
     pub mode: Mode,
-    /// Of the equations of motion.
+    /// Outputs that the equations of motion need.
     pub motion_needs: OutputMask,
     /// Inertia, Jacobians and residuals of the rows that act.
     pub row_needs: OutputMask,
@@ -30,18 +30,18 @@ pub(super) struct Compiled<T: Scalar> {
     pub held: Held,
     /// Rows that act, ascending.
     pub acting: Vec<usize>,
-    /// The system's own, then the plan's.
+    /// Constants of the system, then those of the plan.
     pub constants: Vec<T>,
     /// How the linear system is solved where no functions do it.
     pub pattern: KktPattern<T>,
-    /// Whether the plan is that of the present parameters.
+    /// Whether the plan was made for the present parameters.
     is_planned: bool,
     /// The plan for the parameters before.
     spare: KktPattern<T>,
     pub solver: Solver<T>,
     /// Whether the solver holds the factors of this plan.
     pub factored: bool,
-    /// Whether the numbers are those of other parameters.
+    /// Whether the parameters have changed since the numbers were taken.
     outdated: bool,
     /// The functions of this mode, if they have been emitted.
     pub emitted: Option<Emitted<T>>,
@@ -49,9 +49,9 @@ pub(super) struct Compiled<T: Scalar> {
     pub refused: bool,
     /// The interpreted equations.
     interpreted: Loaded<T>,
-    /// The same of outputs alone, for where functions solve the equations.
+    /// The equations for outputs alone, used where functions solve the equations of motion.
     outputs: Loaded<T>,
-    /// For projections: one, once it has been asked for.
+    /// The equations for projections: one, once a projection has asked for it.
     rows: Vec<Interpreted<T>>,
 }
 

@@ -23,7 +23,7 @@ pub(super) struct Interpreted<T> {
     /// Shared with other motions that do the same with other numbers.
     pub shape: Arc<Shape>,
     pub registers: Vec<T>,
-    /// Whether the numbers are those of other parameters.
+    /// Whether the parameters have changed since the numbers were taken.
     outdated: bool,
     /// Made when a series is first asked for.
     series: Option<Series<T>>,
@@ -46,7 +46,7 @@ impl<T: Scalar> Interpreted<T> {
         !self.shape.held_nodes.is_empty()
     }
 
-    /// Arithmetic operations of one evaluation; the solver's are those of elimination by pivots.
+    /// Arithmetic operations of one evaluation; those of the solver are counted as an elimination by pivots.
     pub(super) fn operations(&self) -> Operations {
         let size = self.shape.unknowns.len();
         let solver = (size * (size + 1) * (4 * size + 5) / 6).saturating_sub(2 * size);
@@ -128,7 +128,7 @@ impl<T: Scalar> Interpreted<T> {
         (&self.shape, &mut self.registers, self.series.as_mut())
     }
 
-    /// Whether the numbers are those of the present parameters.
+    /// Whether the numbers belong to the present parameters.
     pub(super) fn is_current(&self) -> bool {
         !self.outdated
     }

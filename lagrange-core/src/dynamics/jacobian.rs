@@ -17,7 +17,7 @@ impl<T: Scalar> Dynamics<T> {
     /// each. The values of the state are evaluated on the way ([`Self::value`]).
     ///
     /// # Errors
-    /// Those of [`Self::value`].
+    /// The same as [`Self::value`].
     pub fn jacobian(
         &mut self,
         t: T,

@@ -37,13 +37,13 @@ pub(super) enum Extent {
 /// What equations are loaded for.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Asked<'a> {
-    /// Everything that is held of the motion.
+    /// Outputs of the motion that are held.
     pub held: &'a OutputMask,
-    /// Of this, what is asked for beside the motion.
+    /// Those of them that are asked for beside the motion.
     pub extra: &'a OutputMask,
-    /// What is held of the report; none if nothing is asked of it.
+    /// Outputs of the report that are held; none if nothing is asked of it.
     pub report: Option<&'a OutputMask>,
-    /// How much of the equations it is.
+    /// Which part of the equations is loaded.
     pub part: Part,
     /// Whether outputs of the forcing are held. With rows they are not: the forces that they consist of are not asked for.
     pub forcing: bool,
@@ -62,7 +62,7 @@ pub(super) enum Part {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Planned<'a, T> {
     pub mode: &'a Mode,
-    /// The system's own, then the plan's.
+    /// Constants of the system, then those of the plan.
     pub constants: &'a [T],
     /// How the linear system is solved.
     pub pattern: &'a KktPattern<T>,
@@ -101,7 +101,7 @@ pub(super) struct Shape {
     pub slip_directions: Vec<(usize, [Register; 2], [Register; 2])>,
     /// What presses frictions, given from outside.
     pub resultants: Vec<ResultantRegisters>,
-    /// Whose series are kept.
+    /// Registers whose series are kept.
     pub wanted: Vec<Register>,
     /// Where the numbers are.
     pub numbers: Range<usize>,
