@@ -65,7 +65,7 @@ impl Item {
         }
     }
 
-    /// Its index, and how many of its kind there are; it is none of this system if the first is not below the second.
+    /// Its index, and how many of its kind there are; the system has no such item if the first is not below the second.
     pub(crate) fn place(self, description: &Description) -> (usize, usize) {
         let d = description;
         match self {

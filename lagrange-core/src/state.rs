@@ -187,7 +187,7 @@ impl<T: Copy> FixedComponents<T> {
     /// Writes the values into a state, and says per coordinate whether its position, and whether its velocity is fixed.
     ///
     /// # Errors
-    /// [`Error::Dimension`] for a coordinate that is none of the system.
+    /// [`Error::Dimension`] for a coordinate that the system does not have.
     pub(crate) fn write(&self, state: &mut State<T>) -> Result<[Vec<bool>; 2], Error> {
         let positions = write(&self.positions, &mut state.q)?;
         let velocities = write(&self.velocities, &mut state.v)?;

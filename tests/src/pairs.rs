@@ -20,14 +20,14 @@ pub struct Pair {
     pub without: Effects,
 }
 
-/// Declares a pair: the items of both, then the one item that only the first has.
+/// Declares pairs, in groups with items in common: the numbers, the items of both, then the one item that only the first has.
 macro_rules! pairs {
-    ($($whole:ident $part:ident $numbers:tt [$($item:ident),*] $both:tt $only:tt)*) => {
-        $(pairs!(@one $whole $part $numbers $both $only);)*
+    ($($common:tt { $($whole:ident $part:ident $numbers:tt [$($item:ident),*] $both:tt $only:tt)* })*) => {
+        $($(pairs!(@one $whole $part $numbers $common $both $only);)*)*
 
         /// All pairs.
         pub fn visit(visitor: &mut impl Visitor) {
-            $(
+            $($(
                 let mut without = Effects::all();
                 let mut names: Vec<String> = Vec::new();
                 $(
@@ -37,13 +37,13 @@ macro_rules! pairs {
                 )*
                 let pair = Pair { name: names.join(", "), without };
                 visitor.pair(&pair, &$whole::default(), &$part::default());
-            )*
+            )*)*
         }
     };
-    (@one $whole:ident $part:ident { $($field:ident = $value:literal),* } { $($both:tt)* } { $($only:tt)* }) => {
+    (@one $whole:ident $part:ident { $($field:ident = $value:literal),* } { $($common:tt)* } { $($both:tt)* } { $($only:tt)* }) => {
         /// With the item.
         #[derive(Lagrangian, Clone, Debug)]
-        #[lagrange($($both)* $($only)*)]
+        #[lagrange($($common)* $($both)* $($only)*)]
         pub struct $whole { $(#[doc = "A number."] pub $field: f64),* }
 
         impl Default for $whole {
@@ -54,7 +54,7 @@ macro_rules! pairs {
 
         /// Without it.
         #[derive(Lagrangian, Clone, Debug)]
-        #[lagrange($($both)*)]
+        #[lagrange($($common)* $($both)*)]
         pub struct $part { $(#[doc = "A number."] pub $field: f64),* }
 
         impl Default for $part {
@@ -66,18 +66,7 @@ macro_rules! pairs {
 }
 
 pairs! {
-    CartWithSpring CartWithoutSpring { cart = 1.5, bob = 0.7, length = 0.9, g = 9.81, k = 3.0 } [SPRING] {
-        coordinates(x, y, theta),
-        define(px = x + length * sin(theta), py = y - length * cos(theta)),
-        kinetic = cart/2 * (der(x)^2 + der(y)^2) + bob/2 * (der(px)^2 + der(py)^2),
-        potential(weight: g * (cart * y + bob * py)),
-        contact(floor: y >= 0),
-        friction(grip on floor: slip = der(x), static = 2/5),
-        start(held: x = 1/10, theta = 1),
-    } {
-        potential(spring: k/2 * x^2 * (1 + x^2)),
-    }
-    CartWithRotor CartWithoutRotor { cart = 1.5, bob = 0.7, length = 0.9, g = 9.81, inertia = 0.3 } [ROTOR] {
+    {
         coordinates(x, y, theta),
         define(px = x + length * sin(theta), py = y - length * cos(theta)),
         kinetic(masses: cart/2 * (der(x)^2 + der(y)^2) + bob/2 * (der(px)^2 + der(py)^2)),
@@ -85,120 +74,85 @@ pairs! {
         contact(floor: y >= 0),
         start(held: x = 1/10, theta = 1),
     } {
-        kinetic(rotor: inertia/2 * der(theta)^2 * (1 + cos(theta)^2)),
+        CartWithSpring CartWithoutSpring { cart = 1.5, bob = 0.7, length = 0.9, g = 9.81, k = 3.0 } [SPRING] {
+            friction(grip on floor: slip = der(x), static = 2/5),
+        } {
+            potential(spring: k/2 * x^2 * (1 + x^2)),
+        }
+        CartWithRotor CartWithoutRotor { cart = 1.5, bob = 0.7, length = 0.9, g = 9.81, inertia = 0.3 } [ROTOR] {} {
+            kinetic(rotor: inertia/2 * der(theta)^2 * (1 + cos(theta)^2)),
+        }
+        CartWithMotor CartWithoutMotor { cart = 1.5, bob = 0.7, length = 0.9, g = 9.81, torque = 2.0, rate = 1.3 } [MOTOR] {} {
+            force(motor: theta = torque * sin(rate * t)),
+        }
+        CartInWind CartWithoutWind { cart = 1.5, bob = 0.7, length = 0.9, g = 9.81, strength = 0.8 } [WIND] {} {
+            force(wind: (strength * (1 + py^2), 0) at (px, py)),
+        }
+        CartWithDrag CartWithoutDrag { cart = 1.5, bob = 0.7, length = 0.9, g = 9.81, damping = 0.25 } [DRAG] {} {
+            dissipation(drag: damping/2 * (der(px)^2 + der(py)^2)),
+        }
+        CartWithWall CartWithoutWall { cart = 1.5, bob = 0.7, length = 0.9, g = 9.81 } [WALL] {
+            friction(grip on floor: slip = der(x), static = 2/5),
+        } {
+            contact(wall: x + length * sin(theta) <= 5, restitution = 1/2),
+            friction(rub on wall: slip = der(y) + length * sin(theta) * der(theta), static = 3/10),
+        }
+        CartWithBrake CartWithoutBrake { cart = 1.5, bob = 0.7, length = 0.9, g = 9.81, most = 0.6 } [BRAKE] {} {
+            friction(brake: slip = der(theta), limit = most),
+        }
+        CartWithTrack CartWithoutTrack { cart = 1.5, bob = 0.7, length = 0.9, g = 9.81 } [TRACK] {} {
+            constraint(track while floor: der(x) == length * der(theta)),
+        }
     }
-    CartWithMotor CartWithoutMotor { cart = 1.5, bob = 0.7, length = 0.9, g = 9.81, torque = 2.0, rate = 1.3 } [MOTOR] {
-        coordinates(x, y, theta),
-        define(px = x + length * sin(theta), py = y - length * cos(theta)),
-        kinetic = cart/2 * (der(x)^2 + der(y)^2) + bob/2 * (der(px)^2 + der(py)^2),
-        potential(weight: g * (cart * y + bob * py)),
-        contact(floor: y >= 0),
-        start(held: x = 1/10, theta = 1),
-    } {
-        force(motor: theta = torque * sin(rate * t)),
-    }
-    CartInWind CartWithoutWind { cart = 1.5, bob = 0.7, length = 0.9, g = 9.81, strength = 0.8 } [WIND] {
-        coordinates(x, y, theta),
-        define(px = x + length * sin(theta), py = y - length * cos(theta)),
-        kinetic = cart/2 * (der(x)^2 + der(y)^2) + bob/2 * (der(px)^2 + der(py)^2),
-        potential(weight: g * (cart * y + bob * py)),
-        contact(floor: y >= 0),
-        start(held: x = 1/10, theta = 1),
-    } {
-        force(wind: (strength * (1 + py^2), 0) at (px, py)),
-    }
-    CartWithDrag CartWithoutDrag { cart = 1.5, bob = 0.7, length = 0.9, g = 9.81, damping = 0.25 } [DRAG] {
-        coordinates(x, y, theta),
-        define(px = x + length * sin(theta), py = y - length * cos(theta)),
-        kinetic = cart/2 * (der(x)^2 + der(y)^2) + bob/2 * (der(px)^2 + der(py)^2),
-        potential(weight: g * (cart * y + bob * py)),
-        contact(floor: y >= 0),
-        start(held: x = 1/10, theta = 1),
-    } {
-        dissipation(drag: damping/2 * (der(px)^2 + der(py)^2)),
-    }
-    CartWithWall CartWithoutWall { cart = 1.5, bob = 0.7, length = 0.9, g = 9.81 } [WALL] {
-        coordinates(x, y, theta),
-        define(px = x + length * sin(theta), py = y - length * cos(theta)),
-        kinetic = cart/2 * (der(x)^2 + der(y)^2) + bob/2 * (der(px)^2 + der(py)^2),
-        potential(weight: g * (cart * y + bob * py)),
-        contact(floor: y >= 0),
-        friction(grip on floor: slip = der(x), static = 2/5),
-        start(held: x = 1/10, theta = 1),
-    } {
-        contact(wall: x + length * sin(theta) <= 5, restitution = 1/2),
-        friction(rub on wall: slip = der(y) + length * sin(theta) * der(theta), static = 3/10),
-    }
-    CartWithBrake CartWithoutBrake { cart = 1.5, bob = 0.7, length = 0.9, g = 9.81, most = 0.6 } [BRAKE] {
-        coordinates(x, y, theta),
-        define(px = x + length * sin(theta), py = y - length * cos(theta)),
-        kinetic = cart/2 * (der(x)^2 + der(y)^2) + bob/2 * (der(px)^2 + der(py)^2),
-        potential(weight: g * (cart * y + bob * py)),
-        contact(floor: y >= 0),
-        start(held: x = 1/10, theta = 1),
-    } {
-        friction(brake: slip = der(theta), limit = most),
-    }
-    CartWithTrack CartWithoutTrack { cart = 1.5, bob = 0.7, length = 0.9, g = 9.81 } [TRACK] {
-        coordinates(x, y, theta),
-        define(px = x + length * sin(theta), py = y - length * cos(theta)),
-        kinetic = cart/2 * (der(x)^2 + der(y)^2) + bob/2 * (der(px)^2 + der(py)^2),
-        potential(weight: g * (cart * y + bob * py)),
-        contact(floor: y >= 0),
-        start(held: x = 1/10, theta = 1),
-    } {
-        constraint(track while floor: der(x) == length * der(theta)),
-    }
-    WheelWithGrip WheelWithoutGrip { wheel = 1.0, inertia = 0.125, mass = 0.2, radius = 0.5, g = 9.81 } [GRIP] {
-        coordinates(x, phi, r, theta),
-        define(px = x + r * sin(theta), py = r * cos(theta)),
-        kinetic = wheel/2 * der(x)^2 + inertia/2 * der(phi)^2 + mass/2 * (der(px)^2 + der(py)^2),
-        potential = mass * g * py,
-        constraint(rolling: der(x) == radius * der(phi)),
-        contact(rim: r >= radius),
-        start(rest: r = radius, theta = 1/20),
-    } {
-        friction(grip on rim: slip = radius * (der(theta) - der(phi)), static = 3/5, kinetic = 1/2),
-    }
-    WheelThatRolls WheelOnIce { wheel = 1.0, inertia = 0.125, mass = 0.2, radius = 0.5, g = 9.81 } [ROLLING] {
+    {
         coordinates(x, phi, r, theta),
         define(px = x + r * sin(theta), py = r * cos(theta)),
         kinetic = wheel/2 * der(x)^2 + inertia/2 * der(phi)^2 + mass/2 * (der(px)^2 + der(py)^2),
         potential = mass * g * py,
         contact(rim: r >= radius),
-        friction(grip on rim: slip = radius * (der(theta) - der(phi)), static = 3/5, kinetic = 1/2),
         start(rest: r = radius, theta = 1/20),
     } {
-        constraint(rolling: der(x) == radius * der(phi)),
+        WheelWithGrip WheelWithoutGrip { wheel = 1.0, inertia = 0.125, mass = 0.2, radius = 0.5, g = 9.81 } [GRIP] {
+            constraint(rolling: der(x) == radius * der(phi)),
+        } {
+            friction(grip on rim: slip = radius * (der(theta) - der(phi)), static = 3/5, kinetic = 1/2),
+        }
+        WheelThatRolls WheelOnIce { wheel = 1.0, inertia = 0.125, mass = 0.2, radius = 0.5, g = 9.81 } [ROLLING] {
+            friction(grip on rim: slip = radius * (der(theta) - der(phi)), static = 3/5, kinetic = 1/2),
+        } {
+            constraint(rolling: der(x) == radius * der(phi)),
+        }
     }
-    BeadsOnRod BeadsApart { m = 0.4, g = 9.81, length = 0.8 } [ROD] {
-        coordinates(x, y, u, v),
-        kinetic = m/2 * (der(x)^2 + der(y)^2 + der(u)^2 + der(v)^2),
-        potential = m * g * (y + v),
-        constraint(wire: y == x^2/2),
-        friction(sleeve on wire: slip = (der(x) + x * der(y)) / sqrt(1 + x^2), static = 1/5),
-        start(held: u = length, x = 0),
-    } {
-        constraint(rod: (x - u)^2 + (y - v)^2 == length^2),
-    }
-    PuckOnCloth PuckOnIce { m = 0.2, a = 0.03, g = 9.81, speed = 0.7 } [CLOTH] {
-        coordinates(x, y, z, wx, wy),
-        kinetic = m/2 * (der(x)^2 + der(y)^2 + der(z)^2) + m * a^2/5 * (der(wx)^2 + der(wy)^2),
-        potential = m * g * z,
-        contact(table: z >= a),
-        start(struck: z = a, der(x) = speed, der(wx) = 9),
-    } {
-        friction(cloth on table: slip = (der(x) - a * der(wy), der(y) + a * der(wx)), static = 1/5),
-    }
-    BallThatStops BallThatFalls { m = 0.2, g = 9.81, h = 2.0 } [CAUGHT, PASSES, SPEED] {
-        coordinates(x, z),
-        kinetic = m/2 * (der(x)^2 + der(z)^2),
-        potential = m * g * z,
-        contact(floor: z >= 0, restitution = 4/5),
-        start(dropped: z = h, der(x) = 1/2),
-    } {
-        stop(caught: x^2 + z^2 >= 9),
-        mark(passes: z <= h/2),
-        observe(speed = sqrt(der(x)^2 + der(z)^2)),
+    {} {
+        BeadsOnRod BeadsApart { m = 0.4, g = 9.81, length = 0.8 } [ROD] {
+            coordinates(x, y, u, v),
+            kinetic = m/2 * (der(x)^2 + der(y)^2 + der(u)^2 + der(v)^2),
+            potential = m * g * (y + v),
+            constraint(wire: y == x^2/2),
+            friction(sleeve on wire: slip = (der(x) + x * der(y)) / sqrt(1 + x^2), static = 1/5),
+            start(held: u = length, x = 0),
+        } {
+            constraint(rod: (x - u)^2 + (y - v)^2 == length^2),
+        }
+        PuckOnCloth PuckOnIce { m = 0.2, a = 0.03, g = 9.81, speed = 0.7 } [CLOTH] {
+            coordinates(x, y, z, wx, wy),
+            kinetic = m/2 * (der(x)^2 + der(y)^2 + der(z)^2) + m * a^2/5 * (der(wx)^2 + der(wy)^2),
+            potential = m * g * z,
+            contact(table: z >= a),
+            start(struck: z = a, der(x) = speed, der(wx) = 9),
+        } {
+            friction(cloth on table: slip = (der(x) - a * der(wy), der(y) + a * der(wx)), static = 1/5),
+        }
+        BallThatStops BallThatFalls { m = 0.2, g = 9.81, h = 2.0 } [CAUGHT, PASSES, SPEED] {
+            coordinates(x, z),
+            kinetic = m/2 * (der(x)^2 + der(z)^2),
+            potential = m * g * z,
+            contact(floor: z >= 0, restitution = 4/5),
+            start(dropped: z = h, der(x) = 1/2),
+        } {
+            stop(caught: x^2 + z^2 >= 9),
+            mark(passes: z <= h/2),
+            observe(speed = sqrt(der(x)^2 + der(z)^2)),
+        }
     }
 }

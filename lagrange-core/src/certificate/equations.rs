@@ -1,4 +1,4 @@
-//! The declared equations at a state: what balances in every coordinate, and how large its terms are.
+//! The declared equations at a state: what balances in every coordinate.
 
 use crate::declaration::{Declaration, Evaluator, Gradient, Inputs, Seed, Worked};
 use crate::effects::{Effects, Item};
@@ -20,7 +20,7 @@ pub(super) struct Equations {
     /// Constraints, contacts and frictions.
     pub values: Evaluator,
     /// Everything that balances.
-    balancing: Evaluator,
+    pub balancing: Evaluator,
     /// Per coordinate: what should vanish.
     pub residual: Vec<f64>,
     /// Per coordinate: the sum of the absolute values of its terms.
@@ -36,8 +36,8 @@ pub(super) struct Equations {
     seeds: Vec<Seed>,
     /// What the last sweep has found.
     pub gradients: Vec<Gradient>,
-    sizes_along: Vec<[f64; 3]>,
-    zeros: Vec<f64>,
+    pub sizes_along: Vec<[f64; 3]>,
+    pub zeros: Vec<f64>,
 }
 
 /// A state and what acts in it.
@@ -48,7 +48,7 @@ pub(super) struct Situation<'a> {
     pub v: &'a [f64],
     /// Empty: zero.
     pub acceleration: &'a [f64],
-    /// Of every row; empty: zero.
+    /// The force of every row; empty: zero.
     pub forces: &'a [f64],
     /// Values of applied forces, for outputs; empty: zero.
     pub loads: &'a [f64],
@@ -312,97 +312,6 @@ impl Equations {
         pairs.any(|(error, size)| error.abs() > self.exact * size)
     }
 
-    /// [`Self::balance`] at a state, its sizes with everything that rounding errors are relative to: how much it changes
-    /// when the time and each position and velocity x changes by 1 + |x| (two large forces that cancel in a spring near its rest length) and
-    /// each acceleration by its size, and what the forces of rows bring from one equation into another.
-    pub fn balance_with_sizes(&mut self, at: Situation<'_>, mode: &Mode) {
-        /// Changes of the state, whose rounding errors do not matter and which are small enough to be linear.
-        const CHANGE: f64 = 1.0 / 1_048_576.0;
-        let changed = |x: &[f64]| -> Vec<f64> {
-            let signs = [1.0, -1.0, 1.0, 1.0, -1.0].into_iter().cycle();
-            let signed = x.iter().zip(signs);
-            signed
-                .map(|(x, s)| x + s * CHANGE * (1.0 + x.abs()))
-                .collect()
-        };
-        let (q, v) = (changed(at.q), changed(at.v));
-        self.balance(Situation { q: &q, v: &v, ..at });
-        let mut beside = vec![self.residual.clone()];
-        // A force that is a function of the time is rounded as the time is: a fast oscillation far from the beginning.
-        self.balance(Situation {
-            time: at.time + CHANGE * (1.0 + at.time.abs()),
-            ..at
-        });
-        beside.push(self.residual.clone());
-        // Accelerations are rounded beside their own size, each for itself: huge ones that cancel where the inertia nearly vanishes.
-        let mut acceleration = at.acceleration.to_vec();
-        for (j, &own) in at.acceleration.iter().enumerate() {
-            acceleration[j] = (1.0 + CHANGE) * own;
-            self.balance(Situation {
-                acceleration: &acceleration,
-                ..at
-            });
-            beside.push(self.residual.clone());
-            acceleration[j] = own;
-        }
-        self.take(at);
-        self.balance(at);
-        for beside in beside {
-            for ((size, there), here) in self.size.iter_mut().zip(beside).zip(&self.residual) {
-                *size += (there - here).abs() / CHANGE;
-            }
-        }
-        let mut brought = vec![0.0; self.size.len()];
-        for row in 0..self.d.rows.len() {
-            if self.acts(row, mode) {
-                let (value, level) = self.row(row);
-                let (along, square) = self.along(value, level, &self.size.clone());
-                let force = along / square.max(f64::MIN_POSITIVE);
-                self.bring(level, force, &mut brought);
-            }
-        }
-        for f in 0..self.d.frictions.len() {
-            if self.friction_acts(f, mode) {
-                self.bring_by_friction(f, &mut brought);
-            }
-        }
-        for (size, brought) in self.size.iter_mut().zip(brought) {
-            *size += brought;
-        }
-    }
-
-    /// Adds a force along the value that was looked at last.
-    fn bring(&self, level: Level, force: f64, brought: &mut [f64]) {
-        for (brought, sizes) in brought.iter_mut().zip(&self.sizes_along) {
-            *brought += sizes[level as usize] * force;
-        }
-    }
-
-    /// What friction `f` brings from the equations that its normal force balances in into others.
-    fn bring_by_friction(&mut self, f: usize, brought: &mut [f64]) {
-        let sizes = self.size.clone();
-        let friction = self.declaration.frictions[f];
-        let coefficient = self.values.value(friction.kinetic_coefficient);
-        for source in self.d.frictions[f].normal.rows(self.d) {
-            let (value, level) = self.row(source);
-            let (along, square) = self.along(value, level, &sizes);
-            let force = coefficient * along / square.max(f64::MIN_POSITIVE);
-            for &slip in friction.slip {
-                self.along(slip, Level::Velocity, &sizes);
-                self.bring(Level::Velocity, force, brought);
-            }
-        }
-    }
-
-    /// Momenta at velocities that are larger by 1, all of one sign, as sizes: what rounding errors of velocities that cancel are
-    /// relative to.
-    pub fn momentum_sizes(&mut self, time: f64, state: &State<f64>) -> Vec<f64> {
-        let v: Vec<f64> = state.v.iter().map(|v| 1.0 + v.abs()).collect();
-        let raised = State::new(state.q.clone(), v);
-        self.momenta(time, &raised, &[]);
-        self.gradients.iter().map(|g| g.velocity.size).collect()
-    }
-
     /// Finds ∂L/∂v and Σ λ∇g at a state: `velocity` and `variation` of [`Self::gradients`].
     pub fn momenta(&mut self, time: f64, state: &State<f64>, impulses: &[f64]) {
         let at = Situation::of_state(time, state);
@@ -441,24 +350,8 @@ impl Equations {
         (sum, size)
     }
 
-    /// Energies of velocities as large that do not cancel: what huge velocities are rounded beside.
-    pub fn energy_of_each(&mut self, at: Situation<'_>) -> f64 {
-        let signs = [[1.0, 1.0], [1.0, -1.0]];
-        let sizes = signs.map(|signs| {
-            let pairs = at.v.iter().zip(signs.into_iter().cycle());
-            let v: Vec<f64> = pairs.map(|(v, sign)| sign * v.abs()).collect();
-            let turned = Situation { v: &v, ..at };
-            self.balancing.evaluate(turned.inputs(&self.zeros));
-            let energies = self.energies();
-            energies
-                .map(|(value, _)| self.balancing.value(value).abs())
-                .sum::<f64>()
-        });
-        sizes[0].max(sizes[1])
-    }
-
     /// The terms of L that take part, with their signs.
-    fn energies(&self) -> impl Iterator<Item = (usize, f64)> {
+    pub fn energies(&self) -> impl Iterator<Item = (usize, f64)> {
         let kinetic = self.declaration.kinetic.iter().enumerate();
         let kinetic = kinetic.map(|(i, value)| (Item::Kinetic(i), *value, 1.0));
         let potential = self.declaration.potential.iter().enumerate();
@@ -485,142 +378,6 @@ impl Equations {
             along(value, level, force)
         }));
         self.seeds = seeds;
-    }
-
-    /// How much a value changes when each position and velocity x changes by 1 + |x|, or by more where its absolute tolerance says so: the
-    /// residuals of constraints and gaps are not asked for in finer units.
-    pub fn reach(&mut self, value: usize, power: usize, at: Situation<'_>) -> f64 {
-        self.values
-            .gradient_size(value, power, &mut self.sizes_along);
-        change(&self.sizes_along, &self.sizes, [at.q, at.v])
-    }
-
-    /// Accelerations that forces of the sizes of the last balance would make. The inertia of a coordinate is its momentum where
-    /// all velocities are 1; terms of either sign count alike, so that it is not too small. What has none at all, as the scalar part of an
-    /// attitude that is 1, is moved by the rows that act on it.
-    fn measure_swiftness(&mut self, at: Situation<'_>, mode: &Mode) {
-        self.balance(at);
-        let ones = vec![1.0; at.v.len()];
-        let still = Situation { v: &ones, ..at };
-        self.balancing.evaluate(still.inputs(&self.zeros));
-        self.swiftness.fill(0.0);
-        for (i, &value) in self.declaration.kinetic.iter().enumerate() {
-            if self.effects.includes(self.d, Item::Kinetic(i)) {
-                self.balancing
-                    .gradient_size(value, 0, &mut self.sizes_along);
-                let sizes = self.swiftness.iter_mut().zip(&self.sizes_along);
-                sizes.for_each(|(inertia, sizes)| *inertia += sizes[1]);
-            }
-        }
-        let without: Vec<usize> = (0..at.v.len())
-            .filter(|&i| self.swiftness[i] == 0.0)
-            .collect();
-        for (swift, size) in self.swiftness.iter_mut().zip(&self.size) {
-            *swift = if *swift > 0.0 { size / *swift } else { 0.0 };
-        }
-        if !without.is_empty() {
-            self.measure_swiftness_by_rows(&without, at, mode);
-        }
-    }
-
-    /// Accelerations of coordinates without inertia that balance those of the others in the rows that act, Σ aₖ v̇ₖ ≈ 0: by least squares over
-    /// the rows, each in units of what it changes by when each coordinate x changes by 1 + |x|.
-    fn measure_swiftness_by_rows(&mut self, without: &[usize], at: Situation<'_>, mode: &Mode) {
-        let mut sums = vec![[0.0; 2]; without.len()];
-        for row in 0..self.d.rows.len() {
-            if !self.acts(row, mode) {
-                continue;
-            }
-            let (value, level) = self.row(row);
-            self.values.gradient_size(value, 0, &mut self.sizes_along);
-            let elements = || self.sizes_along.iter().map(|sizes| sizes[level as usize]);
-            let unit: f64 = elements().zip(at.q).map(|(a, q)| a * (1.0 + q.abs())).sum();
-            let moved: f64 = elements().zip(&self.swiftness).map(|(a, s)| a * s).sum();
-            for (&i, [products, squares]) in without.iter().zip(&mut sums) {
-                let a = self.sizes_along[i][level as usize] / unit;
-                if a > 0.0 {
-                    *products += a * moved / unit;
-                    *squares += a * a;
-                }
-            }
-        }
-        for (&i, [products, squares]) in without.iter().zip(sums) {
-            if squares > 0.0 {
-                self.swiftness[i] = products / squares;
-            }
-        }
-    }
-
-    /// The size of the forces that balance in the run, as a force along the gradient of a value: by velocities for one of velocity
-    /// level.
-    pub fn force_along(&mut self, value: usize, level: Level) -> f64 {
-        let largest = core::mem::take(&mut self.largest);
-        let (along, square) = self.along(value, level, &largest);
-        self.largest = largest;
-        if square > 0.0 { along / square } else { 0.0 }
-    }
-
-    /// The largest of these along the slips of a friction.
-    pub fn force_along_slips(&mut self, slips: &[usize]) -> f64 {
-        let sizes = slips
-            .iter()
-            .map(|&slip| self.force_along(slip, Level::Velocity));
-        sizes.fold(0.0, f64::max)
-    }
-
-    /// The gradient of a value times sizes, and its square.
-    pub fn along(&mut self, value: usize, level: Level, sizes: &[f64]) -> (f64, f64) {
-        self.values.gradient_size(value, 0, &mut self.sizes_along);
-        let (mut along, mut square) = (0.0, 0.0);
-        for (gradient, size) in self.sizes_along.iter().zip(sizes) {
-            let g = gradient[level as usize];
-            along += g * size;
-            square += g * g;
-        }
-        (along, square)
-    }
-
-    /// The second rate of a value of position level or the first of one of velocity level, and the size of its terms; where that is
-    /// not enough, with what the forces of the state could make of accelerations, and velocities rounded beside 1: those of a body that
-    /// impacts have brought to rest are the rounding errors of what they were.
-    pub fn acceleration(
-        &mut self,
-        (value, level): (usize, Level),
-        at: Situation<'_>,
-        mode: &Mode,
-    ) -> (f64, f64) {
-        self.swiftness.fill(0.0);
-        let (error, size) = self.acceleration_beside(0.0, value, level, at);
-        if error.abs() <= self.exact * size {
-            return (error, size);
-        }
-        self.measure_swiftness(at, mode);
-        self.acceleration_beside(1.0, value, level, at)
-    }
-
-    /// The same where velocities v have the sizes `least` + |v|.
-    fn acceleration_beside(
-        &mut self,
-        least: f64,
-        value: usize,
-        level: Level,
-        at: Situation<'_>,
-    ) -> (f64, f64) {
-        let (power, factor) = match level {
-            Level::Position => (2, 2.0),
-            Level::Velocity => (1, 1.0),
-        };
-        let sizes = &mut self.sizes_along;
-        self.values.gradient_size(value, power, sizes);
-        let mut size = 0.0;
-        for (i, [_, by_velocity, by_acceleration]) in self.sizes_along.iter().enumerate() {
-            let swift = at.acceleration[i].abs() + self.swiftness[i];
-            size += by_velocity * (least + at.v[i].abs()) + 0.5 * by_acceleration * swift;
-        }
-        (
-            factor * self.values.coefficient(value, power),
-            factor * size,
-        )
     }
 
     /// The normal force of friction `f`, as it is in the state taken with these forces, and the size of forces along its source.
@@ -660,7 +417,7 @@ impl Equations {
     }
 
     /// Whether a row acts in a mode.
-    fn acts(&self, row: usize, mode: &Mode) -> bool {
+    pub fn acts(&self, row: usize, mode: &Mode) -> bool {
         let d = self.d;
         if let Some(i) = d.constraints.iter().position(|c| c.row == row) {
             return self.constraint_acts(i, mode);

@@ -15,7 +15,11 @@
 mod equations;
 mod impact;
 mod instant;
+mod joins;
 mod motion;
+mod quadrature;
+mod sizes;
+mod step_error;
 #[cfg(test)]
 mod tests;
 mod watch;
@@ -124,7 +128,7 @@ impl Subject {
         }
     }
 
-    /// Whether its bound is that of rounding, not of the tolerance.
+    /// Whether its bound comes from rounding rather than from the tolerance.
     fn is_exact(self) -> bool {
         use Subject::*;
         matches!(self, Equations | Rows | Energies | Idle | Impulses)
@@ -231,7 +235,7 @@ impl fmt::Display for Certificate {
 /// What has been found so far.
 #[derive(Debug)]
 struct Findings {
-    /// Of the run, but no less than rounding allows.
+    /// The tolerance of the run, but no less than rounding allows.
     tolerance: f64,
     checks: [Check; Subject::ALL.len()],
 }

@@ -2,7 +2,7 @@
 //!
 //! With the positions and velocities of the step's polynomials as intervals a guard g and its rate ġ are intervals too, and
 //! g ∈ g(a) + ġ·(t − a) besides. Where g keeps its sign between two instants, or ġ does, the values at the two say all; where neither
-//! is known the time between them is halved. A dip that is not deeper than the tolerance is none.
+//! is known the time between them is halved. A dip no deeper than the tolerance does not count.
 
 use super::equations::{Situation, change};
 use super::{Findings, Subject};
@@ -69,7 +69,7 @@ pub(super) struct Step {
     pub end: f64,
     /// Number of coefficients of each.
     pub width: usize,
-    /// Of positions, then of velocities.
+    /// Coefficients of all positions, then of all velocities.
     pub coefficients: Vec<f64>,
 }
 

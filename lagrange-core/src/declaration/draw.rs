@@ -15,7 +15,7 @@ pub struct Draw {
     pub turn: Turn,
     /// Of an arrow: rows, and the force in newtons per unit of the multiplier of each.
     pub parts: &'static [(usize, &'static [usize])],
-    /// Of an arrow: what is in it beside the multipliers, N.
+    /// Of an arrow: forces in it beside the multipliers, N.
     pub applied: &'static [usize],
     /// Of an arrow: the applied forces that are in it.
     pub loads: &'static [usize],

@@ -14,12 +14,12 @@
 //! A force λ on a gap has the weight λ there, and one on a slip the weight −λτ, whose −d/dτ it is. The same sweep
 //! takes ∂L/∂q and ∂L/∂v along.
 
+use super::operations::{Operation, Operations};
 use super::real::Real;
-use super::series::{COSH, EXP, SINH, Series, TANH, function, power};
+use super::series::{Series, function, power};
 use super::{Declaration, op};
 use core::cmp::Ordering;
 use core::ops::AddAssign;
-use std::collections::BTreeMap;
 
 /// What a declaration is evaluated at.
 #[derive(Clone, Copy, Debug)]
@@ -96,33 +96,6 @@ pub struct Gradient {
 /// Weights of a value: τ⁰ and τ¹ of the functional derivative, the gradient, and that which has come through a derivative.
 type Weights = [Sum; 4];
 
-#[derive(Clone, Copy, Debug)]
-struct Operation {
-    /// The value that it defines.
-    value: usize,
-    code: u32,
-    /// The operand that chooses.
-    guard: usize,
-    x: usize,
-    y: usize,
-}
-
-impl Operation {
-    /// Operands that are values.
-    fn operands(&self) -> impl Iterator<Item = usize> {
-        let (x, y, guard) = (Some(self.x), Some(self.y), Some(self.guard));
-        let values = match self.code {
-            op::NUMBER | op::PARAMETER | op::TIME | op::POSITION | op::FORCE | op::LOAD => {
-                [None; 3]
-            }
-            op::ADD | op::MULTIPLY | op::ATAN2 => [x, y, None],
-            op::SELECT => [x, y, guard],
-            _ => [x, None, None],
-        };
-        values.into_iter().flatten()
-    }
-}
-
 /// Evaluates a declaration; keeps the memory for it.
 #[derive(Clone, Debug)]
 pub struct Evaluator<N = f64> {
@@ -150,16 +123,16 @@ impl<N: Real> Evaluator<N> {
         parameters: &[f64],
         wanted: impl IntoIterator<Item = usize>,
     ) -> Self {
-        let all = operations(declaration);
-        let needed = needed(&all, wanted);
+        let needed = Operations::of(declaration, wanted);
+        let n = declaration.len();
         let mut evaluator = Self {
             declaration,
-            operations: Vec::with_capacity(all.len()),
-            moves: vec![false; all.len()],
-            of_forces: vec![false; all.len()],
-            taken: vec![None; all.len()],
-            values: vec![Series::default(); all.len()],
-            slopes: vec![[Series::default(); 2]; all.len()],
+            operations: Vec::with_capacity(n),
+            moves: vec![false; n],
+            of_forces: vec![false; n],
+            taken: vec![None; n],
+            values: vec![Series::default(); n],
+            slopes: vec![[Series::default(); 2]; n],
             weights: Vec::new(),
             sizes: Vec::new(),
         };
@@ -171,7 +144,7 @@ impl<N: Real> Evaluator<N> {
             forces: &[],
             loads: &[],
         };
-        for operation in all.into_iter().filter(|operation| needed[operation.value]) {
+        for operation in needed.iter() {
             let at = operation.value;
             evaluator.moves[at] = match operation.code {
                 op::TIME | op::POSITION | op::FORCE | op::LOAD => true,
@@ -194,12 +167,12 @@ impl<N: Real> Evaluator<N> {
 
     /// An evaluator of everything, pictures too.
     pub fn of_everything(declaration: &'static Declaration, parameters: &[f64]) -> Self {
-        Self::new(declaration, parameters, 0..declaration.words.len() / 12)
+        Self::new(declaration, parameters, 0..declaration.len())
     }
 
-    /// Whether a value changes with the state.
-    pub fn moves(&self, value: usize) -> bool {
-        self.moves[value]
+    /// Whether a value changes with the state, and follows from it alone.
+    pub fn follows_state(&self, value: usize) -> bool {
+        self.moves[value] && !self.of_forces[value]
     }
 
     /// Whether a value reads forces, which do not follow from the state alone.
@@ -296,157 +269,6 @@ impl<N: Real> Evaluator<N> {
     /// d/dt of a value.
     pub fn rate(&self, value: usize) -> N {
         self.values[value].0[1]
-    }
-}
-
-/// Arguments of the functions in some values that fall off exponentially, and by how much the exponent changes with each.
-pub fn exponents(
-    declaration: &Declaration,
-    wanted: impl IntoIterator<Item = usize>,
-) -> Vec<(usize, f64)> {
-    let all = operations(declaration);
-    let needed = needed(&all, wanted);
-    let mut exponents: BTreeMap<usize, f64> = BTreeMap::new();
-    for operation in all.iter().filter(|operation| needed[operation.value]) {
-        let factor = match operation.code.checked_sub(op::FUNCTIONS) {
-            Some(SINH | COSH | EXP) => 1.0,
-            Some(TANH) => 2.0,
-            _ => continue,
-        };
-        let known = exponents.entry(operation.x).or_default();
-        *known = known.max(factor);
-    }
-    exponents.into_iter().collect()
-}
-
-/// The bases of powers in some values, with the power to which each is a factor all in all: −12 for (s/x)¹² of x, and of (1 + cos t)⁴⁰ the sum with 40.
-pub fn powers(
-    declaration: &Declaration,
-    wanted: impl IntoIterator<Item = usize>,
-) -> Vec<(usize, f64)> {
-    let all = operations(declaration);
-    let needed = needed(&all, wanted);
-    // To which power each value is raised where it is a factor.
-    let mut raised = vec![1.0_f64; all.len()];
-    let mut powers: BTreeMap<(usize, bool), f64> = BTreeMap::new();
-    for operation in all.iter().rev().filter(|o| needed[o.value]) {
-        let (times, x) = (raised[operation.value], operation.x);
-        let mut raise = |value: usize, times: f64| {
-            if times.abs() > raised[value].abs() {
-                raised[value] = times;
-            }
-        };
-        match operation.code {
-            op::MULTIPLY => {
-                raise(x, times);
-                raise(operation.y, times);
-            }
-            op::POWER => {
-                let times = times * declaration.numbers[operation.y];
-                raise(x, times);
-                let known = powers.entry((x, times < 0.0)).or_default();
-                if times.abs() > known.abs() {
-                    *known = times;
-                }
-            }
-            _ => {}
-        }
-    }
-    let powers = powers.into_iter();
-    powers.map(|((base, _), power)| (base, power)).collect()
-}
-
-/// The functions in some values that grow exponentially.
-pub fn exponentials(
-    declaration: &Declaration,
-    wanted: impl IntoIterator<Item = usize>,
-) -> Vec<usize> {
-    let all = operations(declaration);
-    let needed = needed(&all, wanted);
-    let grows = |operation: &&Operation| {
-        let function = operation.code.checked_sub(op::FUNCTIONS);
-        needed[operation.value] && matches!(function, Some(SINH | COSH | EXP))
-    };
-    let growing = all.iter().filter(grows);
-    growing.map(|operation| operation.value).collect()
-}
-
-/// The angles in some values that jump by 2π at a cut, those of `atan2`.
-pub fn angles(declaration: &Declaration, wanted: impl IntoIterator<Item = usize>) -> Vec<usize> {
-    let all = operations(declaration);
-    let needed = needed(&all, wanted);
-    let is_angle = |o: &&Operation| needed[o.value] && o.code == op::ATAN2;
-    all.iter().filter(is_angle).map(|o| o.value).collect()
-}
-
-/// Whether some values, or their gradients, may jump where no branch says so: at the cut of an `atan2`, or where what a root is taken of vanishes.
-pub fn may_jump(declaration: &Declaration, wanted: impl IntoIterator<Item = usize>) -> bool {
-    let all = operations(declaration);
-    let needed = needed(&all, wanted);
-    let jumps = |o: &Operation| match o.code {
-        op::ATAN2 => true,
-        op::POWER => declaration.numbers[o.y].fract() != 0.0,
-        _ => false,
-    };
-    all.iter().any(|o| needed[o.value] && jumps(o))
-}
-
-fn operations(declaration: &Declaration) -> Vec<Operation> {
-    let words = declaration.words.chunks_exact(12).enumerate();
-    words.map(operation).collect()
-}
-
-/// Whether the time is in some values.
-pub fn reads_time(declaration: &Declaration, wanted: impl IntoIterator<Item = usize>) -> bool {
-    let all = operations(declaration);
-    let needed = needed(&all, wanted);
-    all.iter().any(|o| needed[o.value] && o.code == op::TIME)
-}
-
-/// The bases of the roots, with an exponent of a half and whole numbers, that velocities or the time are in: those that a motion may take through
-/// zero, as it takes |v| of a body that turns back.
-pub fn roots(declaration: &Declaration, wanted: impl IntoIterator<Item = usize>) -> Vec<usize> {
-    let all = operations(declaration);
-    let acting = needed(&all, wanted);
-    let is_root = |o: &&Operation| {
-        let halves = || 2.0 * declaration.numbers[o.y];
-        acting[o.value] && o.code == op::POWER && halves().rem_euclid(2.0) == 1.0
-    };
-    let turns = |base: &usize| {
-        let parts = needed(&all, [*base]);
-        let mut parts = all.iter().filter(|o| parts[o.value]);
-        parts.any(|o| matches!(o.code, op::DERIVATIVE | op::TIME))
-    };
-    let mut bases: Vec<usize> = all.iter().filter(is_root).map(|o| o.x).collect();
-    bases.dedup();
-    bases.retain(turns);
-    bases
-}
-
-/// Per value: whether one of the wanted is made of it.
-fn needed(all: &[Operation], wanted: impl IntoIterator<Item = usize>) -> Vec<bool> {
-    let mut needed = vec![false; all.len()];
-    wanted.into_iter().for_each(|value| needed[value] = true);
-    for operation in all.iter().rev() {
-        if needed[operation.value] {
-            operation.operands().for_each(|x| needed[x] = true);
-        }
-    }
-    needed
-}
-
-/// An operation from its words.
-fn operation((value, words): (usize, &[u8])) -> Operation {
-    let word = |k: usize| {
-        let bytes = [words[k], words[k + 1], words[k + 2], words[k + 3]];
-        u32::from_le_bytes(bytes)
-    };
-    Operation {
-        value,
-        code: word(0) & 255,
-        guard: (word(0) >> 8) as usize,
-        x: word(4) as usize,
-        y: word(8) as usize,
     }
 }
 

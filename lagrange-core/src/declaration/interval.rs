@@ -16,7 +16,7 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// Everything between two numbers; where one of them is none, anything.
+    /// Everything between two numbers; where one of them is not a number, anything.
     pub fn new(low: f64, high: f64) -> Self {
         if low.is_nan() || high.is_nan() {
             return Self::ANYTHING;

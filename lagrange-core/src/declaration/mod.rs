@@ -9,17 +9,16 @@
 mod draw;
 mod evaluate;
 mod interval;
+mod operations;
 mod real;
 mod series;
 #[cfg(test)]
 mod tests;
 
 pub use draw::{Draw, Form, Turn};
-pub use evaluate::{
-    Evaluator, Gradient, Inputs, Seed, Sum, angles, exponentials, exponents, may_jump, powers,
-    reads_time, roots,
-};
+pub use evaluate::{Evaluator, Gradient, Inputs, Seed, Sum};
 pub use interval::Interval;
+pub(crate) use operations::Operations;
 pub use real::Real;
 pub use series::Series;
 
@@ -99,7 +98,7 @@ pub enum Worked {
 }
 
 impl Declaration {
-    /// Of a struct whose declaration has mistakes: nothing is declared.
+    /// The declaration of a struct whose attribute has mistakes: nothing is declared.
     pub const NONE: Self = Self {
         words: &[],
         numbers: &[],
@@ -114,7 +113,15 @@ impl Declaration {
         marks: &[],
         draws: &[],
     };
+
+    /// How many values the operations define.
+    fn len(&self) -> usize {
+        self.words.len() / BYTES
+    }
 }
+
+/// Length of an operation, bytes.
+const BYTES: usize = 12;
 
 /// Number of each operation; those of the macro are the same.
 mod op {

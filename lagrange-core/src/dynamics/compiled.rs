@@ -4,8 +4,9 @@
 use super::constants::Constants;
 use super::emitted::{Emitted, is_finite};
 use super::held::Held;
-use super::interpreted::{Asked, Interpreted, Part, Planned};
+use super::interpreted::Interpreted;
 use super::output_mask::{self, OutputMask};
+use super::shape::{Asked, Part, Planned};
 use crate::arithmetic::Scalar;
 use crate::effects::Effects;
 use crate::equations::Arguments;
@@ -21,7 +22,7 @@ const MOST_INTERPRETED: usize = 12;
 #[derive(Clone, Debug)]
 pub(super) struct Compiled<T: Scalar> {
     pub mode: Mode,
-    /// Of the equations of motion.
+    /// Outputs that the equations of motion need.
     pub motion_needs: OutputMask,
     /// Inertia, Jacobians and residuals of the rows that act.
     pub row_needs: OutputMask,
@@ -29,18 +30,18 @@ pub(super) struct Compiled<T: Scalar> {
     pub held: Held,
     /// Rows that act, ascending.
     pub acting: Vec<usize>,
-    /// The system's own, then the plan's.
+    /// Constants of the system, then those of the plan.
     pub constants: Vec<T>,
     /// How the linear system is solved where no functions do it.
     pub pattern: KktPattern<T>,
-    /// Whether the plan is that of the present parameters.
+    /// Whether the plan was made for the present parameters.
     is_planned: bool,
     /// The plan for the parameters before.
     spare: KktPattern<T>,
     pub solver: Solver<T>,
     /// Whether the solver holds the factors of this plan.
     pub factored: bool,
-    /// Whether the numbers are those of other parameters.
+    /// Whether the parameters have changed since the numbers were taken.
     outdated: bool,
     /// The functions of this mode, if they have been emitted.
     pub emitted: Option<Emitted<T>>,
@@ -48,9 +49,9 @@ pub(super) struct Compiled<T: Scalar> {
     pub refused: bool,
     /// The interpreted equations.
     interpreted: Loaded<T>,
-    /// The same of outputs alone, for where functions solve the equations.
+    /// The equations for outputs alone, used where functions solve the equations of motion.
     outputs: Loaded<T>,
-    /// For projections: one, once it has been asked for.
+    /// The equations for projections: one, once a projection has asked for it.
     rows: Vec<Interpreted<T>>,
 }
 
@@ -292,7 +293,8 @@ impl<T: Scalar> Compiled<T> {
                     held: &self.row_needs,
                     extra: &no_series,
                     report: None,
-                    part: Part::Rows,
+                    part: Part::Outputs,
+                    forcing: false,
                 };
                 rows.push(Interpreted::load(system, self.planned(), &asked, numbers));
             }
@@ -330,7 +332,7 @@ impl<T: Scalar> Compiled<T> {
     fn loaded(&mut self, part: Part) -> &mut Loaded<T> {
         match part {
             Part::Solution => &mut self.interpreted,
-            Part::Outputs | Part::Rows => &mut self.outputs,
+            Part::Outputs => &mut self.outputs,
         }
     }
 }

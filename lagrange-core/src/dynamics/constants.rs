@@ -25,7 +25,7 @@ struct OfBranches<T> {
     program: Program,
     registers: Vec<T>,
     outputs: Vec<Register>,
-    /// Whether the results are those of other parameters.
+    /// Whether the parameters have changed since the results were computed.
     outdated: bool,
 }
 

@@ -1,27 +1,27 @@
 //! What of the programs is held in a mode: what its equations need, and what was asked for beside.
 
-use super::interpreted::{Asked, Part};
 use super::output_mask::OutputMask;
+use super::shape::{Asked, Part};
 use crate::system::Description;
 
 /// What is held in one mode. It stays while the motion is in other modes, and is made anew where something else is asked for.
 #[derive(Clone, Debug)]
 pub(super) struct Held {
-    /// What was asked for beside the equations of motion,
+    /// Outputs of the motion asked for beside the equations of motion,
     extra: OutputMask,
-    /// and of the report.
+    /// and outputs asked of the report.
     report_needs: OutputMask,
-    /// Of the motion program.
+    /// Outputs that the motion program gives.
     motion: OutputMask,
-    /// Of the functions of the mode for a series,
+    /// Outputs that the functions of the mode give as a series,
     pub series: OutputMask,
-    /// and for values: what a projection takes as well, where they give that.
+    /// and as values: with what a projection takes, where they give that.
     pub value: OutputMask,
-    /// Of the report program: the effects' own needs and what was asked for.
+    /// Outputs that the report program gives: for the effects, and those asked for.
     report: OutputMask,
     /// Whether the report runs with the motion.
     reports: bool,
-    /// Which interpreted equations are in use; none if they are those for other needs.
+    /// Which interpreted equations are in use; none if they were loaded for other needs.
     pub selected: Option<Part>,
 }
 
@@ -83,6 +83,7 @@ impl Held {
             extra: &self.extra,
             report: self.reports.then_some(&self.report),
             part,
+            forcing: true,
         }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! From K w = b, with w = (u̇, −λ) already known: K ∂w = ∂b − ∂K w, so the factors of the value serve every column.
 
-use super::interpreted::{Extent, MOTION, SYSTEM};
+use super::shape::{Extent, MOTION, SYSTEM};
 use super::{Dynamics, Equations, EvaluationError};
 use crate::arithmetic::{Dual, Scalar};
 
@@ -17,7 +17,7 @@ impl<T: Scalar> Dynamics<T> {
     /// each. The values of the state are evaluated on the way ([`Self::value`]).
     ///
     /// # Errors
-    /// Those of [`Self::value`].
+    /// The same as [`Self::value`].
     pub fn jacobian(
         &mut self,
         t: T,

@@ -1,7 +1,7 @@
 //! The equations of a mode as matrices, to look at and to compare with a derivation by hand.
 
 use super::Dynamics;
-use super::interpreted::{Extent, SYSTEM};
+use super::shape::{Extent, SYSTEM};
 use crate::arithmetic::Scalar;
 use crate::linear::{Freedom, dot, least_norm};
 use nalgebra::{DMatrix, DVector};
@@ -95,24 +95,6 @@ impl<T: Scalar> Dynamics<T> {
         self.modes[self.current].solver.hold_rows_aside(yes);
     }
 
-    /// The forces of all rows at the last [`Self::value`], where they are not determined those of least norm; and whether
-    /// each is determined (rows that do not act are). One-sided contacts and friction may not allow these: see
-    /// [`Instant::forces`](crate::trajectory::Instant::forces).
-    pub fn least_norm_forces(&self) -> (Vec<T>, Vec<bool>) {
-        let least = self.least_norm_of_acting();
-        let mut determined = vec![true; self.description().rows.len()];
-        for (i, &row) in self.acting_rows().iter().enumerate() {
-            determined[row] = least.freedom.is_determined(i);
-        }
-        let forces = self.forces_of_acting(&least.forces);
-        for slide in &self.compiled().pattern.slides {
-            if let Some(source) = slide.source {
-                determined[slide.row] &= determined[source];
-            }
-        }
-        (forces, determined)
-    }
-
     /// Forces of the rows that act ([`Self::acting_rows`]), of least norm, and how else they could be.
     ///
     /// The multiplier of a unit quaternion is no force, and does not count: it is what all others leave along the quaternion.
@@ -161,7 +143,7 @@ impl<T: Scalar> Dynamics<T> {
         for (&row, &force) in self.acting_rows().iter().zip(acting_forces) {
             forces[row] = force;
         }
-        let slides = || self.compiled().pattern.slides.iter();
+        let slides = || self.compiled().pattern.sliding.slides.iter();
         let follows = slides().filter(|slide| slide.source.is_some());
         follows.for_each(|slide| forces[slide.row] = T::zero());
         for slide in slides() {

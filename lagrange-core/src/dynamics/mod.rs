@@ -11,6 +11,7 @@ pub(crate) mod error;
 mod held;
 mod interpreted;
 mod jacobian;
+mod loading;
 mod matrices;
 mod output_mask;
 mod owner;
@@ -18,6 +19,7 @@ mod packets;
 mod projection;
 mod resultant;
 mod series;
+mod shape;
 mod slip_direction;
 mod stepping;
 #[cfg(test)]
@@ -41,7 +43,7 @@ use crate::system::{Description, ValueRef};
 use compiled::Compiled;
 use constants::Constants;
 use emitted::Emitted;
-use interpreted::Part;
+use shape::Part;
 
 /// What evaluates the equations of motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -74,9 +76,9 @@ pub struct Work {
 /// Arithmetic operations of one evaluation in the present mode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Operations {
-    /// Of the accelerations: a right-hand side.
+    /// Operations for the accelerations: a right-hand side.
     pub accelerations: usize,
-    /// Of everything that was asked for: forces, guards and outputs as well.
+    /// Operations for everything that was asked for: forces, guards and outputs as well.
     pub everything: usize,
 }
 
@@ -94,16 +96,16 @@ pub struct Dynamics<T: Scalar> {
     numbers: Vec<T>,
     /// Index of the mode to forget next.
     oldest: usize,
-    /// What was asked for beside the equations of motion.
+    /// Outputs asked for beside the equations of motion.
     extra: OutputMask,
-    /// Whether the mode holds it.
+    /// Whether the mode holds what is asked for.
     holds: bool,
-    /// Whether nothing else is read of this than what guards read.
+    /// Whether only what guards read is read of these outputs.
     guards_alone: bool,
     /// Whether the outputs at the last value are those that the functions of the mode have given.
     given: bool,
     report_needs: OutputMask,
-    /// Of the named energies.
+    /// Needs of the named energies.
     energies: OutputMask,
     /// Whether the last evaluation was by the functions of the mode.
     by_functions: bool,
@@ -398,7 +400,7 @@ impl<T: Scalar> Dynamics<T> {
     fn solve_error(&self, error: SolveError) -> EvaluationError {
         let pattern = &self.compiled().pattern;
         let free = pattern.free();
-        let carries = pattern.slides.iter().find_map(|slide| slide.source);
+        let carries = pattern.sliding.slides.iter().find_map(|slide| slide.source);
         if let (SolveError::Undetermined { .. }, Some(row)) = (error, carries)
             && self.has_inertia()
         {

@@ -1,6 +1,6 @@
 //! Which item of the declaration a number of the equations belongs to, for error messages.
 
-use super::interpreted::{Extent, Shape};
+use super::shape::{Extent, Shape};
 use crate::program::Register;
 use crate::system::{Description, Normal, ValueRef};
 

@@ -4,7 +4,7 @@
 //! side, with one instruction of the processor for all, so that each gets, bit for bit, what it would get alone.
 
 use super::Dynamics;
-use super::interpreted::{Extent, Shape};
+use super::shape::{Extent, Shape};
 use crate::arithmetic::{Pack, Scalar};
 use crate::program::Series;
 use std::sync::Arc;

@@ -41,7 +41,7 @@ const MOST_HALVINGS: usize = 12;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Scratch<T> {
     right: Vec<T>,
-    /// Of positions or velocities.
+    /// Change of positions or velocities.
     change: Vec<T>,
     /// A matrix of zeros.
     blank: Vec<T>,

@@ -15,7 +15,7 @@
 //! follows from N² = λ·λ by lower coefficients alone. Where λ vanishes, u is the direction in which it begins, that of its first coefficient λₘ,
 //! and the same holds of the coefficients from there on.
 
-use super::interpreted::{Extent, ResultantRegisters};
+use super::shape::{Extent, ResultantRegisters};
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::Scalar;
 use crate::linear::direction::{Vector, dot, length, settle};
@@ -159,7 +159,7 @@ impl<T: Scalar> Resultant<T> {
 impl<T: Scalar> Dynamics<T> {
     /// Whether a friction slips that several constraints press together.
     pub(super) fn presses_by_resultants(&self) -> bool {
-        !self.compiled().pattern.resultants.is_empty()
+        !self.compiled().pattern.sliding.resultants.is_empty()
     }
 
     /// The direction of resultant `i`, a unit vector, at the start of the step.
@@ -205,7 +205,7 @@ impl<T: Scalar> Dynamics<T> {
             return Ok(());
         }
         let d = self.description();
-        let first = self.compiled().pattern.resultants.first();
+        let first = self.compiled().pattern.sliding.resultants.first();
         let first = first.map(|given| d.constraints[d.resultants[given.resultant][0]].row);
         let row = first.unwrap_or(0);
         Err(EvaluationError::Undetermined { row })
@@ -240,7 +240,7 @@ impl<T: Scalar> Dynamics<T> {
 
     /// Coefficients up to `order` in such a mode, from values in the registers.
     pub(super) fn expand_pressed(&mut self, order: usize) -> Result<(), EvaluationError> {
-        let expand = match self.compiled().pattern.slip_directions.is_empty() {
+        let expand = match self.compiled().pattern.sliding.slip_directions.is_empty() {
             true => Self::expand_anew,
             false => Self::expand_from_rest,
         };
@@ -294,7 +294,7 @@ impl<T: Scalar> Dynamics<T> {
 
     /// Resultants that are small beside what they have been.
     fn nearly_without_load(&self) -> Vec<usize> {
-        let pressing = self.compiled().pattern.resultants.iter();
+        let pressing = self.compiled().pattern.sliding.resultants.iter();
         let small = |i: &usize| {
             let of = &self.resultants.of[*i];
             !(of.largest > 0.0 && of.size > SMALL * of.largest)

@@ -9,7 +9,7 @@
 //! one factorization whatever the order; the sum runs over those matrix elements that change with the state.
 //! Reference: Griewank & Walther 2008, Evaluating Derivatives, section 13.2 (implicit relations).
 
-use super::interpreted::{Extent, REPORT, Shape};
+use super::shape::{Extent, REPORT, Shape};
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::products::Row;
 use crate::arithmetic::{Pack, Scalar};
@@ -23,7 +23,7 @@ impl<T: Scalar> Dynamics<T> {
     /// outputs that were asked for. The arrays that the `…_series` functions return have `order + 1` elements.
     ///
     /// # Errors
-    /// Those of [`Self::value`], and [`EvaluationError::NoSeries`].
+    /// The same as [`Self::value`], and [`EvaluationError::NoSeries`].
     pub fn series(&mut self, t: T, q: &[T], v: &[T], order: usize) -> Result<(), EvaluationError> {
         if self.begin_series(t, q, v, order)? {
             self.end_series(order);
@@ -62,7 +62,7 @@ impl<T: Scalar> Dynamics<T> {
             self.take_directions_of_series();
             return Ok(false);
         }
-        if self.compiled().pattern.slip_directions.is_empty() {
+        if self.compiled().pattern.sliding.slip_directions.is_empty() {
             match self.start_series(order) {
                 Err(EvaluationError::NoSeries { .. }) => {
                     self.with_roots(order, Self::expand_anew)?;
@@ -231,7 +231,7 @@ impl<T: Scalar> Dynamics<T> {
     }
 
     /// Coefficients 0 of everything.
-    pub(super) fn start_series(&mut self, order: usize) -> Result<(), EvaluationError> {
+    fn start_series(&mut self, order: usize) -> Result<(), EvaluationError> {
         let (_, _, interpreted) = self.modes[self.current].parts();
         interpreted.evaluate(Extent::Series, REPORT);
         let (series, registers) = interpreted.series_memory(order);

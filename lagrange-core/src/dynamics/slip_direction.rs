@@ -14,7 +14,7 @@
 //! A slip may have one direction only, that of a foot about another one that sticks. A turn then does nothing to ṡ × u₀, and where the slip
 //! begins as τ² as well coefficient k + 1 says nothing of ψₖ: coefficient k + 2 does. Of several slips this may be so of combinations.
 
-use super::interpreted::Extent;
+use super::shape::Extent;
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::Scalar;
 use crate::linear::{VanishingCombinations, solve_small};
@@ -81,7 +81,7 @@ impl<T: Scalar> SlipDirections<T> {
         self.now.fill([T::zero(); 2]);
     }
 
-    /// Of friction `f`.
+    /// Direction of the slip of friction `f`.
     #[inline]
     pub(super) fn of(&self, f: usize) -> [T; 2] {
         self.now[f]
@@ -179,7 +179,7 @@ impl<T: Scalar> Dynamics<T> {
     /// vanish; afterwards the slip directions are those of the mode again.
     ///
     /// # Errors
-    /// Those of [`Self::value`].
+    /// The same as [`Self::value`].
     pub fn value_along(&mut self, t: T, q: &[T], v: &[T]) -> Result<(), EvaluationError> {
         self.value_along_from(t, q, v, &[])
     }
@@ -198,7 +198,7 @@ impl<T: Scalar> Dynamics<T> {
         v: &[T],
         left: &[[T; 2]],
     ) -> Result<(), EvaluationError> {
-        let count = self.compiled().pattern.slip_directions.len();
+        let count = self.compiled().pattern.sliding.slip_directions.len();
         if count == 0 {
             return self.value(t, q, v);
         }
@@ -312,7 +312,7 @@ impl<T: Scalar> Dynamics<T> {
     /// Coefficient 2 of s × u of each slip that begins, for directions that do not turn.
     ///
     /// # Errors
-    /// Those of [`Self::series`].
+    /// The same as [`Self::series`].
     pub(crate) fn bends(&mut self, t: T, q: &[T], v: &[T]) -> Result<Vec<T>, EvaluationError> {
         (self.series_by_functions, self.by_functions) = (false, false);
         self.run(t, q, v, Extent::Series, true)?;
@@ -327,12 +327,12 @@ impl<T: Scalar> Dynamics<T> {
 
     /// How many slips begin.
     fn beginnings(&self) -> usize {
-        self.compiled().pattern.slip_directions.len()
+        self.compiled().pattern.sliding.slip_directions.len()
     }
 
     /// The friction of slip direction `i` of the plan.
     fn beginning(&self, i: usize) -> usize {
-        self.compiled().pattern.slip_directions[i].friction
+        self.compiled().pattern.sliding.slip_directions[i].friction
     }
 
     /// Directions that do not turn.

@@ -2,7 +2,8 @@
 
 use super::compiled::{Compiled, Outcome};
 use super::emitted::is_finite;
-use super::interpreted::{Extent, FORCES, Interpreted, MOTION, Part, REPORT, SYSTEM};
+use super::interpreted::Interpreted;
+use super::shape::{Extent, FORCES, MOTION, Part, REPORT, SYSTEM};
 use super::{Dynamics, Equations, EvaluationError};
 use crate::arithmetic::{Scalar, epsilon};
 use crate::equations::Arguments;
@@ -294,7 +295,7 @@ impl<T: Scalar> Dynamics<T> {
     fn in_front(&mut self) -> &mut Interpreted<T> {
         let compiled = &mut self.modes[self.current];
         match compiled.held.selected {
-            Some(Part::Outputs | Part::Rows) => compiled.outputs(),
+            Some(Part::Outputs) => compiled.outputs(),
             Some(Part::Solution) | None => compiled.parts().2,
         }
     }

@@ -56,7 +56,7 @@ impl<T: Scalar> Integrator<T> {
     /// A first step size, at most `h_max`.
     ///
     /// # Errors
-    /// Of the system at the start.
+    /// The system has no accelerations at the start.
     pub fn first_step<A: Acceleration<T>>(
         &mut self,
         system: &mut A,

@@ -56,7 +56,7 @@ impl<T: Scalar> StepPolynomial<T> {
     }
 
     /// Coefficients of the position of coordinate `i`.
-    pub fn position_row(&self, i: usize) -> &[T] {
+    fn position_row(&self, i: usize) -> &[T] {
         &self.q[i * (self.degree + 1)..][..self.degree + 1]
     }
 

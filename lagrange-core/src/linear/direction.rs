@@ -24,7 +24,7 @@ pub(crate) fn length<T: Scalar>(x: Vector<T>) -> T {
     dot(x, x).sqrt()
 }
 
-/// Whether so much across of a vector of this size is none, as far as a direction can be found.
+/// Whether a component `across` a vector of this size counts as zero, as far as a direction can be found.
 pub(crate) fn is_along(across: f64, size: f64) -> bool {
     across <= FOUND * size
 }

@@ -208,7 +208,7 @@ impl<T: Scalar> Elimination<T> {
         let height = a.len() / n.max(1);
         self.symmetric = symmetric;
         self.accelerations.set(a, height, n, &[]);
-        // A force that a friction carries into another equation is that of its own: there may be none of it beside the loads of the other.
+        // A friction carries the force of its own normal equation into others, where that force may be nothing beside their own loads.
         self.forces.set(c, height, n, &self.accelerations.pivots);
         if self.forces.pivots.iter().any(Option::is_none) {
             return false;

@@ -10,8 +10,8 @@
 //! where column i of C is the generalized force of λᵢ: aᵢᵀ, what couplings add, and sliding friction −μk ν Σ d aₜᵀ.
 //! C = Aᵀ where nothing slides.
 
+mod assembly;
 mod bounded;
-mod collect;
 mod conic;
 mod consistent;
 mod direct;
@@ -22,13 +22,14 @@ mod lemke;
 mod lu;
 mod pattern;
 mod program;
+mod sliding;
 mod small;
 mod solver;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use assembly::{acting, acts};
 pub(crate) use bounded::{ForceBounds, Linear};
-pub(crate) use collect::{acting, acts};
 pub(crate) use conic::{Cone, ConicPoint};
 pub(crate) use consistent::Equilibrated;
 pub(crate) use least_norm::{Freedom, least_norm};

@@ -3,9 +3,10 @@
 //! Structural zeros never appear, what depends on parameters only is summed once, constant rows are eliminated. What is
 //! left are K w = b for w = (u̇, −λ of the rows kept) and, for the rows eliminated, λ = (further rows of K) w − (of b).
 
-use super::collect::{KktTerms, ResultantNodes, Slide, SlipDirection, Source};
+use super::assembly::{KktTerms, Source};
 use super::eliminate::Elimination;
-use super::program::Program;
+use super::program::{Program, ProgramWriter};
+use super::sliding::SlidingFrictions;
 use crate::arithmetic::Scalar;
 use crate::effects::Effects;
 use crate::mode::Mode;
@@ -45,11 +46,7 @@ pub(crate) struct KktPattern<T> {
     /// Rows that act and were eliminated; force `i` is row `size + i` of the lists.
     pub eliminated: Vec<usize>,
     /// Frictions that slide.
-    pub slides: Vec<Slide>,
-    /// Of these, those whose slip begins.
-    pub slip_directions: Vec<SlipDirection>,
-    /// Of what presses those that slide, what is given from outside.
-    pub resultants: Vec<ResultantNodes>,
+    pub sliding: SlidingFrictions,
     /// Work after the motion program.
     pub program: Program<T>,
     /// Elements that change, in the square system: accelerations first, forces after `first_force`.
@@ -144,9 +141,7 @@ impl<T: Scalar> KktPattern<T> {
         self.collected.acting == other.collected.acting
             && self.kept == other.kept
             && self.eliminated == other.eliminated
-            && self.slides == other.slides
-            && self.slip_directions == other.slip_directions
-            && self.resultants == other.resultants
+            && self.sliding == other.sliding
             && self.entries == other.entries
             && self.first_force == other.first_force
             && self.force_entries == other.force_entries
@@ -170,16 +165,12 @@ impl<T: Scalar> KktPattern<T> {
         constants: &mut Vec<T>,
     ) {
         self.program.restart(description.motion.outputs);
-        self.collected.set(
-            description,
-            effects,
-            mode,
+        let mut program = ProgramWriter {
+            program: &mut self.program,
             constants,
-            &mut self.program,
-            &mut self.slides,
-            &mut self.slip_directions,
-            &mut self.resultants,
-        );
+        };
+        self.collected
+            .set(description, effects, mode, &mut program, &mut self.sliding);
         self.eliminate(description, constants);
         self.collect_terms(description);
         self.merge_terms(constants);

@@ -72,82 +72,10 @@ impl<T: Scalar> Program<T> {
             && terms.all(|(x, y)| x.1 == y.1)
     }
 
-    fn push(&mut self, op: Op) -> ValueRef {
+    /// Appends an operation; the node of its result.
+    fn push(&mut self, op: Op) -> usize {
         self.ops.push(op);
-        ValueRef::Node(self.first + self.ops.len() - 1)
-    }
-
-    /// A new constant.
-    pub(crate) fn constant(constants: &mut Vec<T>, value: T) -> ValueRef {
-        if value.is_zero() {
-            return ValueRef::Zero;
-        }
-        constants.push(value);
-        ValueRef::Constant(constants.len() - 1)
-    }
-
-    /// x y
-    pub(crate) fn mul(&mut self, constants: &mut Vec<T>, x: ValueRef, y: ValueRef) -> ValueRef {
-        match (x, y) {
-            (ValueRef::Zero, _) | (_, ValueRef::Zero) => ValueRef::Zero,
-            (ValueRef::Constant(x), ValueRef::Constant(y)) => {
-                Self::constant(constants, constants[x] * constants[y])
-            }
-            (ValueRef::Constant(constant), ValueRef::Node(x))
-            | (ValueRef::Node(x), ValueRef::Constant(constant)) => {
-                if constants[constant].is_zero() {
-                    ValueRef::Zero
-                } else if constants[constant] == T::one() {
-                    ValueRef::Node(x)
-                } else {
-                    self.push(Op::Scale { constant, x })
-                }
-            }
-            (ValueRef::Node(x), ValueRef::Node(y)) => self.push(Op::Mul { x, y }),
-        }
-    }
-
-    /// A number that is put into its node before the program runs: the node.
-    pub(crate) fn given(&mut self) -> usize {
-        self.ops.push(Op::Given);
         self.first + self.ops.len() - 1
-    }
-
-    /// c x
-    pub(crate) fn scale(&mut self, constants: &mut Vec<T>, c: T, x: ValueRef) -> ValueRef {
-        let c = Self::constant(constants, c);
-        self.mul(constants, c, x)
-    }
-
-    /// x + y
-    pub(crate) fn add(&mut self, constants: &mut Vec<T>, x: ValueRef, y: ValueRef) -> ValueRef {
-        match (x, y) {
-            (ValueRef::Zero, z) | (z, ValueRef::Zero) => z,
-            (ValueRef::Constant(x), ValueRef::Constant(y)) => {
-                Self::constant(constants, constants[x] + constants[y])
-            }
-            (ValueRef::Constant(constant), ValueRef::Node(x))
-            | (ValueRef::Node(x), ValueRef::Constant(constant)) => {
-                self.push(Op::Offset { constant, x })
-            }
-            (ValueRef::Node(x), ValueRef::Node(y)) => self.push(Op::Add { x, y }),
-        }
-    }
-
-    /// 1 / √x; of a zero, zero.
-    pub(crate) fn inverse_root(&mut self, constants: &mut Vec<T>, x: ValueRef) -> ValueRef {
-        match x {
-            ValueRef::Zero => ValueRef::Zero,
-            ValueRef::Constant(x) => Self::constant(constants, T::one() / constants[x].sqrt()),
-            ValueRef::Node(x) => {
-                constants.push(T::one());
-                self.push(Op::Sqrt { x });
-                self.push(Op::Ratio {
-                    constant: constants.len() - 1,
-                    x: self.first + self.ops.len() - 1,
-                })
-            }
-        }
     }
 
     /// Begins Σ factor · node.
@@ -171,10 +99,7 @@ impl<T: Scalar> Program<T> {
                 self.terms.truncate(first);
                 Some(node)
             }
-            _ => {
-                self.ops.push(Op::Sum { first, end });
-                Some(self.first + self.ops.len() - 1)
-            }
+            _ => Some(self.push(Op::Sum { first, end })),
         }
     }
 
@@ -205,6 +130,88 @@ impl<T: Scalar> Program<T> {
                 Op::Given => builder.fresh(),
             };
             nodes.push(result);
+        }
+    }
+}
+
+/// Writes a program: what can be done with constants is done at once, and gives another constant.
+pub(crate) struct ProgramWriter<'a, T> {
+    pub(crate) program: &'a mut Program<T>,
+    pub(crate) constants: &'a mut Vec<T>,
+}
+
+impl<T: Scalar> ProgramWriter<'_, T> {
+    /// A new constant.
+    pub(crate) fn constant(&mut self, value: T) -> ValueRef {
+        if value.is_zero() {
+            return ValueRef::Zero;
+        }
+        self.constants.push(value);
+        ValueRef::Constant(self.constants.len() - 1)
+    }
+
+    /// x y
+    pub(crate) fn mul(&mut self, x: ValueRef, y: ValueRef) -> ValueRef {
+        match (x, y) {
+            (ValueRef::Zero, _) | (_, ValueRef::Zero) => ValueRef::Zero,
+            (ValueRef::Constant(x), ValueRef::Constant(y)) => {
+                self.constant(self.constants[x] * self.constants[y])
+            }
+            (ValueRef::Constant(constant), ValueRef::Node(x))
+            | (ValueRef::Node(x), ValueRef::Constant(constant)) => {
+                if self.constants[constant].is_zero() {
+                    ValueRef::Zero
+                } else if self.constants[constant] == T::one() {
+                    ValueRef::Node(x)
+                } else {
+                    ValueRef::Node(self.program.push(Op::Scale { constant, x }))
+                }
+            }
+            (ValueRef::Node(x), ValueRef::Node(y)) => {
+                ValueRef::Node(self.program.push(Op::Mul { x, y }))
+            }
+        }
+    }
+
+    /// A number that is put into its node before the program runs: the node.
+    pub(crate) fn given(&mut self) -> usize {
+        self.program.push(Op::Given)
+    }
+
+    /// c x
+    pub(crate) fn scale(&mut self, c: T, x: ValueRef) -> ValueRef {
+        let c = self.constant(c);
+        self.mul(c, x)
+    }
+
+    /// x + y
+    pub(crate) fn add(&mut self, x: ValueRef, y: ValueRef) -> ValueRef {
+        match (x, y) {
+            (ValueRef::Zero, z) | (z, ValueRef::Zero) => z,
+            (ValueRef::Constant(x), ValueRef::Constant(y)) => {
+                self.constant(self.constants[x] + self.constants[y])
+            }
+            (ValueRef::Constant(constant), ValueRef::Node(x))
+            | (ValueRef::Node(x), ValueRef::Constant(constant)) => {
+                ValueRef::Node(self.program.push(Op::Offset { constant, x }))
+            }
+            (ValueRef::Node(x), ValueRef::Node(y)) => {
+                ValueRef::Node(self.program.push(Op::Add { x, y }))
+            }
+        }
+    }
+
+    /// 1 / √x; of a zero, zero.
+    pub(crate) fn inverse_root(&mut self, x: ValueRef) -> ValueRef {
+        match x {
+            ValueRef::Zero => ValueRef::Zero,
+            ValueRef::Constant(x) => self.constant(T::one() / self.constants[x].sqrt()),
+            ValueRef::Node(x) => {
+                self.constants.push(T::one());
+                let constant = self.constants.len() - 1;
+                let x = self.program.push(Op::Sqrt { x });
+                ValueRef::Node(self.program.push(Op::Ratio { constant, x }))
+            }
         }
     }
 }

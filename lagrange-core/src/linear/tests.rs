@@ -365,7 +365,8 @@ fn plan_nodes(
     let (program, used) = loader.finish();
     let mut values = numbers;
     values.resize(room(used), f64::NAN);
-    for (slip_direction, (f, along)) in pattern.slip_directions.iter().zip(mode.incipient()) {
+    for (slip_direction, (f, along)) in pattern.sliding.slip_directions.iter().zip(mode.incipient())
+    {
         assert_eq!(slip_direction.friction, f);
         for (node, x) in slip_direction.nodes.into_iter().zip(along) {
             values[registers[node].index()] = x;
@@ -418,7 +419,7 @@ fn by_plan(d: &Description, mode: &Mode, b: &Builder) -> Option<Vec<f64>> {
     for e in &pattern.force_entries {
         x[n + pattern.eliminated[e.row - size]] += nodes[e.node] * w[e.column];
     }
-    for slide in &pattern.slides {
+    for slide in &pattern.sliding.slides {
         let factor = match slide.factor {
             ValueRef::Zero => 0.0,
             ValueRef::Constant(i) => constants[i],

@@ -13,7 +13,7 @@ pub const ONES: [f64; guard::LENGTH] = [1.0; guard::LENGTH];
 pub struct Part {
     /// The guard.
     pub guard: Guard,
-    /// Of a friction cone: the plane that touches it there. Nothing of a ray.
+    /// If the guard is a friction cone, the plane that touches it; nothing for other guards.
     pub plane: Option<ConePlane>,
     /// Weight in the sum.
     pub weight: f64,

@@ -1,7 +1,7 @@
 //! A guard as a number of the run's own scalar: what located the root is a double, its derivatives come from here.
 
 use super::composite::CompositeGuard;
-use super::guard::{Guard, by_constraints, cone_unit};
+use super::guard::{Guard, cone_unit, pressed_by_constraints};
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
@@ -64,7 +64,7 @@ pub fn exact<T: Scalar>(
                     let along = plane.along.into_iter().enumerate();
                     let along = along.take(d.frictions[f].components);
                     let friction = &d.frictions[f];
-                    let limit = if by_constraints(friction) {
+                    let limit = if pressed_by_constraints(friction) {
                         dynamics.motion(friction.static_coefficient)
                             * pressing(f, plane.pressing.map(T::from_f64), dynamics)
                     } else {

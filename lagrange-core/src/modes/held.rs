@@ -48,7 +48,7 @@ impl<T: Scalar> HeldBranches<T> {
         self.held.clear();
     }
 
-    /// Finds the branches that the mode of `dynamics` holds; `needs` are those of all guards.
+    /// Finds the branches that the mode of `dynamics` holds; `needs` are what all guards read.
     pub fn look(
         &mut self,
         dynamics: &mut Dynamics<T>,

@@ -7,9 +7,9 @@ use crate::system::{Description, ValueRef};
 /// What a [`Dynamics`] has evaluated last: numbers, or Taylor coefficients.
 #[derive(Debug)]
 pub enum Reading<'a, T: Scalar> {
-    /// Of [`Dynamics::value`].
+    /// The numbers of the last [`Dynamics::value`].
     Values(&'a Dynamics<T>),
-    /// Of [`Dynamics::series`].
+    /// The coefficients of the last [`Dynamics::series`].
     Series(&'a Dynamics<T>),
 }
 

@@ -35,17 +35,14 @@ pub fn begin<T: Scalar>(
     domain::check(dynamics, &status.mode, t.value(), &mut status.form)?;
     if project {
         leave_surfaces(dynamics, t, state, tolerance, status)?;
-    } else {
-        status.refuse_violations(dynamics.description(), tolerance.strictness())?;
-    }
-    if project {
         // A slip that is zero in a state off its constraints may be so by what the state does not say: it is judged on them.
         let mut mode = status.mode.clone();
         if mode.release_sticking() {
-            dynamics.set_mode(&mode);
-            project_onto(dynamics, t, state, &mode)?;
+            project_onto(&mode, dynamics, t, state)?;
             status.look(dynamics, t, state, tolerance);
         }
+    } else {
+        status.refuse_violations(dynamics.description(), tolerance.strictness())?;
     }
     dynamics.set_mode(&status.mode);
     let (position, rate) = dynamics.residuals(t, &state.q, &state.v);
@@ -54,13 +51,8 @@ pub fn begin<T: Scalar>(
     }
     if settle(dynamics, t, state, tolerance, status)? {
         if !project {
-            refuse_other_positions(
-                dynamics,
-                position,
-                &given.q,
-                &state.q,
-                tolerance.strictness(),
-            )?;
+            let positions = [&given.q[..], &state.q];
+            refuse_other_positions(dynamics, position, positions, tolerance.strictness())?;
         }
         status.look(dynamics, t, state, tolerance);
         dynamics.set_mode(&status.mode);
@@ -68,7 +60,7 @@ pub fn begin<T: Scalar>(
     Ok(())
 }
 
-/// Moves a state onto what holds in its mode, which is that of `dynamics`; whether it had to. Both sides of a slot that is narrower than what counts
+/// Moves a state onto what holds in its mode; whether it had to. Both sides of a slot that is narrower than what counts
 /// as zero cannot be closed at once: contacts above their surface stay open where they cannot be closed together with those before them.
 fn settle<T: Scalar>(
     dynamics: &mut Dynamics<T>,
@@ -78,7 +70,7 @@ fn settle<T: Scalar>(
     status: &mut ConstraintStatus,
 ) -> Result<bool, Error> {
     let given = state.clone();
-    let error = match project_onto(dynamics, t, state, &status.mode) {
+    let error = match project_onto(&status.mode, dynamics, t, state) {
         Err(error) if status.above().next().is_some() => error,
         outcome => return outcome,
     };
@@ -88,8 +80,7 @@ fn settle<T: Scalar>(
         status.apart.clear();
         status.apart.extend_from_slice(apart);
         status.look(dynamics, t, state, tolerance);
-        dynamics.set_mode(&status.mode);
-        project_onto(dynamics, t, state, &status.mode)
+        project_onto(&status.mode, dynamics, t, state)
     };
     if without(&apart, state).is_err() {
         return Err(error);
@@ -127,9 +118,8 @@ fn leave_surfaces<T: Scalar>(
         let mut mode = status.mode.clone();
         let contacts = mode.contacts.iter_mut().zip(&closed);
         contacts.for_each(|(contact, closed)| *contact |= closed);
-        dynamics.set_mode(&mode);
         let velocities = state.v.clone();
-        project_onto(dynamics, t, state, &mode)?;
+        project_onto(&mode, dynamics, t, state)?;
         state.v = velocities;
         status.look(dynamics, t, state, tolerance);
     }
@@ -156,8 +146,7 @@ fn refuse_other_velocities<T: Scalar>(dynamics: &Dynamics<T>, rate: Residual) ->
 fn refuse_other_positions<T: Scalar>(
     dynamics: &Dynamics<T>,
     left: Residual,
-    given: &[T],
-    moved: &[T],
+    [given, moved]: [&[T]; 2],
     tolerance: f64,
 ) -> Result<(), Error> {
     let change = |(given, moved): (&T, &T)| {
@@ -177,13 +166,14 @@ fn refuse_other_positions<T: Scalar>(
     })
 }
 
-/// Moves a state onto what holds in `mode`, which is that of `dynamics`; whether it had to.
+/// Moves a state onto what holds in `mode`, in which it leaves `dynamics`; whether it had to.
 fn project_onto<T: Scalar>(
+    mode: &Mode,
     dynamics: &mut Dynamics<T>,
     t: T,
     state: &mut State<T>,
-    mode: &Mode,
 ) -> Result<bool, Error> {
+    dynamics.set_mode(mode);
     let moved = dynamics.project(t, &mut state.q, &mut state.v, 0.0);
     moved.map_err(|e| Error::from_evaluation(e, t.value(), mode, dynamics.description()))
 }
@@ -241,29 +231,34 @@ struct Holding<'a, T: Scalar> {
 
 impl<T: Scalar> Holding<'_, T> {
     /// The state on what holds in `mode`.
+    fn onto(&mut self, mode: &Mode) -> Result<State<T>, EvaluationError> {
+        self.dynamics.set_mode(mode);
+        let outcome = self.moved_onto(self.state.clone());
+        outcome.or_else(|error| match self.with_others_aside() {
+            Some(aside) => self.moved_onto(aside).map_err(|_| error),
+            None => Err(error),
+        })
+    }
+
+    /// The state with the coordinates that are not held moved aside; none if those that are held have not moved.
     ///
     /// Newton's method does not leave a position where constraints lose rank, a dead centre, as one that is held asks: the other coordinates are
     /// moved aside for it, each by half of what has the same kinetic energy as what one of those has moved.
-    fn onto(&mut self, mode: &Mode) -> Result<State<T>, EvaluationError> {
-        self.dynamics.set_mode(mode);
-        self.moved_onto(self.state.clone()).or_else(|error| {
-            let mut aside = self.state.clone();
-            let mass = self.dynamics.mass_matrix();
-            let inertia = |j: usize| mass[(j, j)].value();
-            let moved = aside.q.iter().zip(&self.reference.q).enumerate();
-            let moved = moved.map(|(j, (&q, &before))| inertia(j).sqrt() * (q - before).value());
-            // Rather to the side to which those are moved: of a parallelogram this is not the crossed one.
-            let most = moved.fold(
-                0.0,
-                |most: f64, by| if by.abs() > most.abs() { by } else { most },
-            );
-            for (j, q) in aside.q.iter_mut().enumerate() {
-                if !self.held[0][j] && inertia(j) > 0.0 {
-                    *q += T::from_f64(0.5 * most / inertia(j).sqrt());
-                }
+    fn with_others_aside(&mut self) -> Option<State<T>> {
+        let mut aside = self.state.clone();
+        let mass = self.dynamics.mass_matrix();
+        let inertia = |j: usize| mass[(j, j)].value();
+        let moved = aside.q.iter().zip(&self.reference.q).enumerate();
+        let moved = moved.map(|(j, (&q, &before))| inertia(j).sqrt() * (q - before).value());
+        // Rather to the side to which those are moved: of a parallelogram this is not the crossed one.
+        let larger = |most: f64, by: f64| if by.abs() > most.abs() { by } else { most };
+        let most = moved.fold(0.0, larger);
+        for (j, q) in aside.q.iter_mut().enumerate() {
+            if !self.held[0][j] && inertia(j) > 0.0 {
+                *q += T::from_f64(0.5 * most / inertia(j).sqrt());
             }
-            self.moved_onto(aside).map_err(|_| error)
-        })
+        }
+        (most != 0.0).then_some(aside)
     }
 
     fn moved_onto(&mut self, mut state: State<T>) -> Result<State<T>, EvaluationError> {

@@ -50,7 +50,7 @@ pub(crate) enum Word {
     Ratio(Coefficient, usize),
     /// xᶜ
     Powf(usize, Coefficient),
-    /// An operation on one or two values; its number is that of the format.
+    /// An operation on one or two values; numbered as in the format.
     Apply(u32, usize, usize),
     /// The first value while the branch is on its `then` side, else the second.
     Select(usize, usize, usize),

@@ -119,7 +119,7 @@ pub(crate) struct Series<T> {
     /// Number of products.
     count: usize,
     products: Vec<Products<T>>,
-    /// Of coefficient k, what earlier ones give to it, one by one.
+    /// Parts of coefficient k that earlier coefficients give, product by product.
     sums: Vec<T>,
     /// The registers whose coefficients are kept.
     kept: Vec<Register>,

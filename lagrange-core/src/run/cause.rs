@@ -1,7 +1,9 @@
 //! What is behind an error of the motion: coefficients without meaning where it happened, or fixed steps that lost the motion.
 
-use super::{Run, hidden};
+use super::Run;
+use super::acting::acting;
 use crate::arithmetic::Scalar;
+use crate::declaration::{Evaluator, Inputs};
 use crate::error::{Error, NotFinite};
 use crate::integrate::Method;
 use crate::modes::domain;
@@ -17,6 +19,9 @@ const BISECTIONS: usize = 50;
 
 /// Products of three numbers beyond this size, or its inverse, are beyond all numbers.
 const LARGEST: f64 = 1e102;
+
+/// Equations of motion, and their series, contain what is declared to powers of about this.
+const RAISED: i32 = 8;
 
 impl<T: Scalar> Run<T> {
     /// The error that says why the motion came to this one.
@@ -39,14 +44,36 @@ impl<T: Scalar> Run<T> {
     /// The same error, which says so if numbers overflow where one is not finite.
     pub(super) fn overflow(&self, mut error: Error) -> Error {
         if let Error::NotFinite { cause, .. } = &mut error {
-            let (system, effects) = (self.dynamics.system(), self.dynamics.effects());
-            if hidden::overflow(system, effects, self.now.t, &self.now.state) {
+            if self.exponentials_overflow() {
                 *cause = NotFinite::Exponential;
             } else if self.is_out_of_range() {
                 *cause = NotFinite::Range;
             }
         }
         error
+    }
+
+    /// Whether functions in what acts are so large at the present state that powers of them are beyond all numbers.
+    fn exponentials_overflow(&self) -> bool {
+        let system = self.dynamics.system();
+        let acting = acting(system, self.dynamics.effects());
+        let growing: Vec<usize> = acting.exponentials().collect();
+        let wanted = growing.iter().copied();
+        let mut evaluator = Evaluator::new(system.declaration(), &system.parameters(), wanted);
+        let numbers = |list: &[T]| -> Vec<f64> { list.iter().map(|x| x.value()).collect() };
+        let State { q, v, .. } = &self.now.state;
+        evaluator.evaluate(Inputs {
+            time: self.now.t.value(),
+            q: &numbers(q),
+            v: &numbers(v),
+            acceleration: &vec![0.0; q.len()],
+            forces: &[],
+            loads: &[],
+        });
+        growing.into_iter().any(|value| {
+            let size = evaluator.value(value).powi(RAISED);
+            evaluator.follows_state(value) && size.is_infinite()
+        })
     }
 
     /// Whether parameters, the state or its accelerations are of a size that products leave the range of numbers with.

@@ -14,15 +14,11 @@
 //! A root √x², as |v| of a body that turns back, goes on as −x in its series. Where x passes zero twice nothing tells of it at the end of the step:
 //! the step ends between the zeros.
 
+use super::piece::{Ends, extremes, largest_size, least_size, of_root, passes_cut, passes_zero};
 use crate::arithmetic::Scalar;
-use crate::declaration::{
-    self, Declaration, Evaluator, Inputs, Worked, angles, exponentials, exponents, powers, roots,
-};
-use crate::effects::{Effects, Item};
+use crate::declaration::{Evaluator, Inputs, Operations};
 use crate::integrate::StepPolynomial;
-use crate::system::{Description, Erased};
-use crate::trajectory::State;
-use core::f64::consts::{PI, TAU};
+use crate::system::Erased;
 
 /// What is smaller than exp(−100), 4e-44, does not matter, whatever it is a factor of.
 const NEGLIGIBLE: f64 = -100.0;
@@ -40,18 +36,14 @@ const FAR: f64 = 0.5;
 /// Lower powers grow by no more than a series of a loose tolerance follows.
 const HIGH: f64 = 8.0;
 
-/// Equations of motion, and their series, contain what is declared to powers of about this.
-const RAISED: i32 = 8;
-
 /// A step is looked at in so many pieces.
 const PIECES: usize = 8;
 
-/// The exponents, powers, angles and roots in what acts.
+/// The arguments of exponentials and powers, the angles and the roots in what acts.
 #[derive(Debug)]
 pub(super) struct Hidden {
     evaluator: Evaluator,
-    exponents: Vec<Exponent>,
-    powers: Vec<Power>,
+    arguments: Vec<Argument>,
     angles: Vec<Angle>,
     roots: Vec<Root>,
     q: Vec<f64>,
@@ -59,30 +51,35 @@ pub(super) struct Hidden {
     acceleration: Vec<f64>,
 }
 
-/// The argument of exp, sinh, cosh or tanh.
+/// The argument of an exponential function, or the base of a power.
 #[derive(Debug)]
-struct Exponent {
-    argument: usize,
-    /// By how much the exponent changes with the argument.
-    factor: f64,
+struct Argument {
+    value: usize,
+    function: Function,
     /// The argument and its change over a piece, at the beginning of the piece.
     before: Ends,
-    /// Up to where the exponent may rise.
-    highest: f64,
+    /// The border of its size within the step; none where it does not come there.
+    border: Option<Border>,
 }
 
-/// A power of something.
+/// What an argument is of.
 #[derive(Debug)]
-struct Power {
-    base: usize,
-    /// Its exponent, negative for what is divided by.
-    exponent: f64,
-    /// The base and its change over a piece, at the beginning of the piece.
-    before: Ends,
-    /// How large the base has been at most.
-    largest: f64,
-    /// The size of the base down to which, or up to which, it may go; none where it does not come there.
-    border: Option<f64>,
+enum Function {
+    /// exp, sinh, cosh or tanh, and by how much the exponent changes with the argument.
+    Exponential(f64),
+    /// A power, with a negative exponent for what is divided by.
+    Power {
+        exponent: f64,
+        /// How large the base has been at most.
+        largest: f64,
+    },
+}
+
+/// How small or how large a number may become.
+#[derive(Clone, Copy, Debug)]
+enum Border {
+    Least(f64),
+    Most(f64),
 }
 
 /// A value of `atan2`.
@@ -107,61 +104,50 @@ struct Root {
     corner: Option<f64>,
 }
 
-/// A value, and its change over a piece.
-type Ends = [f64; 2];
-
 impl Hidden {
-    /// Those of a system, if it has any.
-    pub(super) fn new<T: Scalar>(system: &Erased<T>, effects: &Effects) -> Option<Self> {
-        let (d, declaration) = (system.description(), system.declaration());
-        let mut arguments = exponents(declaration, acting(d, declaration, effects));
-        let mut raised = powers(declaration, acting(d, declaration, effects));
-        raised.retain(|&(_, exponent)| !(0.0..HIGH).contains(&exponent));
-        let mut values = angles(declaration, acting(d, declaration, effects));
-        let mut bases = roots(declaration, acting(d, declaration, effects));
-        if arguments.is_empty() && raised.is_empty() && values.is_empty() && bases.is_empty() {
-            return None;
-        }
-        let wanted = arguments.iter().chain(&raised).map(|&(value, _)| value);
-        let wanted = wanted.chain(values.iter().chain(&bases).copied());
-        let evaluator = Evaluator::new(declaration, &system.parameters(), wanted);
-        let follows = |value: usize| evaluator.moves(value) && !evaluator.is_of_forces(value);
-        arguments.retain(|&(argument, _)| follows(argument));
-        raised.retain(|&(base, _)| follows(base));
-        values.retain(|&value| follows(value));
-        bases.retain(|&base| follows(base));
-        let is_empty = arguments.is_empty() && raised.is_empty();
-        if is_empty && values.is_empty() && bases.is_empty() {
-            return None;
-        }
-        let exponents = arguments.iter().map(|&(argument, factor)| Exponent {
-            argument,
-            factor,
-            before: [0.0; 2],
-            highest: 0.0,
+    /// Those of what acts in a system, if it has any.
+    pub(super) fn new<T: Scalar>(system: &Erased<T>, acting: &Operations) -> Option<Self> {
+        let exponentials = acting.exponents().map(|(argument, factor)| {
+            let function = Function::Exponential(factor);
+            (argument, function)
         });
-        let powers = raised.iter().map(|&(base, exponent)| Power {
-            base,
-            exponent,
+        let high = |&(_, exponent): &(usize, f64)| !(0.0..HIGH).contains(&exponent);
+        let powers = acting.powers().filter(high).map(|(base, exponent)| {
+            let largest = 0.0;
+            (base, Function::Power { exponent, largest })
+        });
+        let mut arguments: Vec<(usize, Function)> = exponentials.chain(powers).collect();
+        let [mut angles, mut roots]: [Vec<usize>; 2] =
+            [acting.angles().collect(), acting.roots().collect()];
+        let wanted = arguments.iter().map(|(argument, _)| argument);
+        let wanted = wanted.chain(&angles).chain(&roots).copied();
+        let evaluator = Evaluator::new(system.declaration(), &system.parameters(), wanted);
+        arguments.retain(|&(argument, _)| evaluator.follows_state(argument));
+        angles.retain(|&angle| evaluator.follows_state(angle));
+        roots.retain(|&base| evaluator.follows_state(base));
+        if arguments.is_empty() && angles.is_empty() && roots.is_empty() {
+            return None;
+        }
+        let arguments = arguments.into_iter().map(|(value, function)| Argument {
+            value,
+            function,
             before: [0.0; 2],
-            largest: 0.0,
             border: None,
         });
-        let angles = values.iter().map(|&value| Angle {
+        let angles = angles.into_iter().map(|value| Angle {
             value,
             before: [0.0; 2],
             jumps: 0.0,
             beyond: None,
         });
-        let roots = bases.iter().map(|&base| Root {
+        let roots = roots.into_iter().map(|base| Root {
             base,
             before: [0.0; 2],
             corner: None,
         });
-        let n = d.coordinates.len();
+        let n = system.description().coordinates.len();
         Some(Self {
-            exponents: exponents.collect(),
-            powers: powers.collect(),
+            arguments: arguments.collect(),
             angles: angles.collect(),
             roots: roots.collect(),
             evaluator,
@@ -173,7 +159,11 @@ impl Hidden {
 
     /// Forgets what belongs to another motion.
     pub(super) fn restart(&mut self) {
-        self.powers.iter_mut().for_each(|power| power.largest = 0.0);
+        for argument in &mut self.arguments {
+            if let Function::Power { largest, .. } = &mut argument.function {
+                *largest = 0.0;
+            }
+        }
     }
 
     /// Whether there are roots among them.
@@ -195,19 +185,13 @@ impl Hidden {
         let ends = |evaluator: &Evaluator, value: usize| {
             [evaluator.value(value), change * evaluator.rate(value)]
         };
-        for exponent in &mut self.exponents {
-            exponent.before = ends(&self.evaluator, exponent.argument);
-            let size = exponent.before[0].abs();
-            exponent.highest = f64::max(-exponent.factor * size, NEGLIGIBLE) + rise;
+        for argument in &mut self.arguments {
+            let [rate, bend] = [1, 2].map(|k| self.evaluator.coefficient(argument.value, k));
+            argument.before = ends(&self.evaluator, argument.value);
+            argument.begin(rise, [rate, bend], end * step.h.value());
         }
-        let mut near = false;
-        for power in &mut self.powers {
-            let [rate, bend] = [1, 2].map(|k| self.evaluator.coefficient(power.base, k));
-            power.before = ends(&self.evaluator, power.base);
-            power.begin(rise, [rate, bend], end * step.h.value());
-            near |= power.border.is_some();
-        }
-        if !near && self.exponents.is_empty() && self.angles.is_empty() && self.roots.is_empty() {
+        let near = self.arguments.iter().any(|a| a.border.is_some());
+        if !near && self.angles.is_empty() && self.roots.is_empty() {
             return end;
         }
         for angle in &mut self.angles {
@@ -220,18 +204,10 @@ impl Hidden {
         }
         for n in 1..=PIECES {
             self.look(step, n as f64 * piece);
-            for exponent in &mut self.exponents {
-                let after = ends(&self.evaluator, exponent.argument);
-                let least = least_size(exponent.before, after);
-                if -exponent.factor * least > exponent.highest {
-                    return f64::max((n - 1) as f64, 0.5) * piece;
-                }
-                exponent.before = after;
-            }
-            for power in &mut self.powers {
-                let after = ends(&self.evaluator, power.base);
-                let before = core::mem::replace(&mut power.before, after);
-                if power.passes_border(before, after) {
+            for argument in &mut self.arguments {
+                let after = ends(&self.evaluator, argument.value);
+                let before = core::mem::replace(&mut argument.before, after);
+                if argument.passes_border(before, after) {
                     return f64::max((n - 1) as f64, 0.5) * piece;
                 }
             }
@@ -282,238 +258,39 @@ impl Hidden {
     }
 }
 
-impl Power {
-    /// Says where its base may go over a step that takes `time`, so that the power does not grow by more than the exponential of `rise`. The base is
+impl Argument {
+    /// Says where it may go over a step that takes `time`, so that its function does not grow by more than the exponential of `rise`. The argument is
     /// known where the step begins, and the coefficients of its series are `rate` and `bend`.
     fn begin(&mut self, rise: f64, [rate, bend]: [f64; 2], time: f64) {
         let size = self.before[0].abs();
-        self.largest = self.largest.max(size);
         let change = time * (rate.abs() + 2.0 * time * bend.abs());
-        let n = self.exponent;
-        self.border = match n < 0.0 {
-            true => {
-                let lowest = size * (rise / n).exp();
-                (change >= FAR * size && lowest > LEAST * self.largest).then_some(lowest)
+        self.border = match &mut self.function {
+            Function::Exponential(factor) => {
+                // The function is small where the argument is large, in exp(−x) as in 1/cosh(x).
+                let highest = f64::max(-*factor * size, NEGLIGIBLE) + rise;
+                (highest < 0.0).then_some(Border::Least(-highest / *factor))
             }
-            false => {
-                let scale = if self.largest > 0.0 {
-                    self.largest
+            Function::Power { exponent, largest } => {
+                *largest = largest.max(size);
+                let growth = (rise / *exponent).exp();
+                if *exponent < 0.0 {
+                    let least = size * growth;
+                    let is_near = change >= FAR * size && least > LEAST * *largest;
+                    is_near.then_some(Border::Least(least))
                 } else {
-                    1.0
-                };
-                let highest = size.max(scale * (NEGLIGIBLE / n).exp()) * (rise / n).exp();
-                (size + change > highest).then_some(highest)
+                    let scale = if *largest > 0.0 { *largest } else { 1.0 };
+                    let most = size.max(scale * (NEGLIGIBLE / *exponent).exp()) * growth;
+                    (size + change > most).then_some(Border::Most(most))
+                }
             }
         };
     }
 
-    /// Whether the base goes where it must not in a piece with these ends.
+    /// Whether it goes where it must not in a piece with these ends.
     fn passes_border(&self, before: Ends, after: Ends) -> bool {
-        self.border.is_some_and(|border| match self.exponent < 0.0 {
-            true => least_size(before, after) < border,
-            false => largest_size(before, after) > border,
+        self.border.is_some_and(|border| match border {
+            Border::Least(least) => least_size(before, after) < least,
+            Border::Most(most) => largest_size(before, after) > most,
         })
-    }
-}
-
-/// Whether accelerations may jump where no branch says so.
-pub(super) fn may_jump<T: Scalar>(system: &Erased<T>, effects: &Effects) -> bool {
-    let (d, declaration) = (system.description(), system.declaration());
-    declaration::may_jump(declaration, acting(d, declaration, effects))
-}
-
-/// Whether what acts is a function of time.
-pub(super) fn changes_with_time<T: Scalar>(system: &Erased<T>, effects: &Effects) -> bool {
-    let (d, declaration) = (system.description(), system.declaration());
-    declaration::reads_time(declaration, acting(d, declaration, effects))
-}
-
-/// Whether functions in what acts are so large at a state that powers of them are beyond all numbers.
-#[cold]
-pub(super) fn overflow<T: Scalar>(
-    system: &Erased<T>,
-    effects: &Effects,
-    time: T,
-    state: &State<T>,
-) -> bool {
-    let (d, declaration) = (system.description(), system.declaration());
-    let growing = exponentials(declaration, acting(d, declaration, effects));
-    let mut evaluator = Evaluator::new(declaration, &system.parameters(), growing.iter().copied());
-    let numbers = |list: &[T]| -> Vec<f64> { list.iter().map(|x| x.value()).collect() };
-    evaluator.evaluate(Inputs {
-        time: time.value(),
-        q: &numbers(&state.q),
-        v: &numbers(&state.v),
-        acceleration: &vec![0.0; state.q.len()],
-        forces: &[],
-        loads: &[],
-    });
-    let mut growing = growing.into_iter();
-    growing.any(|value| {
-        let follows = evaluator.moves(value) && !evaluator.is_of_forces(value);
-        follows && evaluator.value(value).powi(RAISED).is_infinite()
-    })
-}
-
-/// Least |z| of the cubic with these values and changes at both ends of a piece, or of what is bent in between as |s| is, up to where its tangents
-/// meet.
-fn least_size(before: Ends, after: Ends) -> f64 {
-    let ([first, falls], [last, rises]) = (before, after);
-    if first * last <= 0.0 {
-        return 0.0;
-    }
-    let side = first.signum();
-    let mut least = first.abs().min(last.abs());
-    if side * falls < 0.0 && side * rises > 0.0 {
-        let meet = (last - rises - first) / (falls - rises);
-        least = least.min((side * (first + falls * meet)).max(0.0));
-    }
-    extremes(before, after).fold(least, |least, (_, z)| match z * first <= 0.0 {
-        true => 0.0,
-        false => least.min(z.abs()),
-    })
-}
-
-/// Largest |z| of the cubic with these values and changes at both ends of a piece.
-fn largest_size(before: Ends, after: Ends) -> f64 {
-    let largest = before[0].abs().max(after[0].abs());
-    extremes(before, after).fold(largest, |largest, (_, z)| largest.max(z.abs()))
-}
-
-/// A root and its change, by those of what is under it.
-fn of_root([base, change]: Ends) -> Ends {
-    let root = base.max(0.0).sqrt();
-    [root, change / (2.0 * root)]
-}
-
-/// Whether a root with these values and changes at both ends of a piece goes on with the other sign: then the change is the mean of those at
-/// the ends.
-fn passes_zero(before: Ends, after: Ends) -> bool {
-    let misfit = |sign: f64| {
-        let grows = 0.5 * (before[1] + sign * after[1]);
-        (sign * after[0] - before[0] - grows).abs()
-    };
-    misfit(-1.0) < misfit(1.0)
-}
-
-/// Where an angle is beyond its cut in a piece, and how often it has jumped up there: once, or −1 times, or not where it has come back.
-fn passes_cut(before: Ends, after: Ends) -> Option<(f64, f64)> {
-    let grows = (before[1] + after[1]) / 2.0;
-    let jumps = ((after[0] - before[0] - grows) / TAU).round();
-    if jumps != 0.0 {
-        return Some((1.0, jumps));
-    }
-    let mut extremes = extremes(before, after);
-    extremes.find_map(|(s, z)| (z.abs() > PI).then_some((s, 0.0)))
-}
-
-/// Where the slope of the cubic with these values and changes at both ends of a piece vanishes in it, and its values there.
-fn extremes([first, falls]: Ends, [last, rises]: Ends) -> impl Iterator<Item = (f64, f64)> {
-    // z = first + falls·s + b s² + c s³, whose slope vanishes at two places at most.
-    let (b, c) = (
-        3.0 * (last - first) - 2.0 * falls - rises,
-        2.0 * (first - last) + falls + rises,
-    );
-    let root = (b * b - 3.0 * c * falls).max(0.0).sqrt();
-    let q = -(b + root.copysign(b));
-    let places = [q / (3.0 * c), falls / q].into_iter();
-    let inside = places.filter(|&s| s > 0.0 && s < 1.0);
-    inside.map(move |s| (s, first + s * (falls + s * (b + s * c))))
-}
-
-/// What is declared, less what is left out.
-fn acting(d: &Description, declaration: &Declaration, effects: &Effects) -> Vec<usize> {
-    let mut values = Vec::new();
-    let mut put = |item: Item, list: &[usize]| {
-        if effects.includes(d, item) {
-            values.extend_from_slice(list);
-        }
-    };
-    for (i, &value) in declaration.kinetic.iter().enumerate() {
-        put(Item::Kinetic(i), &[value]);
-    }
-    for (i, &value) in declaration.potential.iter().enumerate() {
-        put(Item::Potential(i), &[value]);
-    }
-    for (i, &value) in declaration.constraints.iter().enumerate() {
-        put(Item::Constraint(i), &[value]);
-    }
-    for (i, contact) in declaration.contacts.iter().enumerate() {
-        put(Item::Contact(i), &[contact.gap]);
-        put(Item::Contact(i), contact.region.as_slice());
-    }
-    for (i, friction) in declaration.frictions.iter().enumerate() {
-        put(Item::Friction(i), friction.slip);
-        put(Item::Friction(i), friction.normal.as_slice());
-        let coefficients = [friction.static_coefficient, friction.kinetic_coefficient];
-        put(Item::Friction(i), &coefficients);
-    }
-    for (i, force) in declaration.forces.iter().enumerate() {
-        for &(component, worked) in force.components {
-            put(Item::Force(i), &[component]);
-            if let Worked::Point(value) | Worked::Speed(value) = worked {
-                put(Item::Force(i), &[value]);
-            }
-        }
-    }
-    for (i, &value) in declaration.dissipations.iter().enumerate() {
-        put(Item::Dissipation(i), &[value]);
-    }
-    for (i, terms) in declaration.stops.iter().enumerate() {
-        put(Item::Stop(i), terms.unwrap_or_default());
-    }
-    for (i, terms) in declaration.marks.iter().enumerate() {
-        put(Item::Mark(i), terms.unwrap_or_default());
-    }
-    values
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{PI, TAU, extremes, least_size, passes_cut, passes_zero};
-
-    #[test]
-    fn angles_pass_their_cut_at_an_end_of_a_piece_or_in_between() {
-        assert_eq!(passes_cut([1.0, 0.5], [1.5, 0.5]), None);
-        assert_eq!(passes_cut([3.0, 0.4], [3.4 - TAU, 0.4]), Some((1.0, -1.0)));
-        assert_eq!(
-            passes_cut([-3.0, -0.4], [TAU - 3.4, -0.4]),
-            Some((1.0, 1.0))
-        );
-        // π − 0.1 + s − s² is highest in the middle, 0.15 beyond the cut.
-        let returns = passes_cut([PI - 0.1, 1.0], [PI - 0.1, -1.0]);
-        assert_eq!(returns, Some((0.5, 0.0)));
-        assert_eq!(passes_cut([PI - 0.3, 1.0], [PI - 0.3, -1.0]), None);
-    }
-
-    #[test]
-    fn least_sizes_of_cubics_are_found_between_the_ends() {
-        // (s − ½)² + 1 and |s − ½| + 1, by their values and slopes at 0 and 1: both are 3/4 or more.
-        assert_eq!(least_size([1.25, -1.0], [1.25, 1.0]), 0.75);
-        assert_eq!(least_size([1.5, -1.0], [1.5, 1.0]), 1.0);
-        // −2 + s, s − ½, and 1 − 6s + 6s², which is negative in the middle.
-        assert_eq!(least_size([-2.0, 1.0], [-1.0, 1.0]), 1.0);
-        assert_eq!(least_size([-0.5, 1.0], [0.5, 1.0]), 0.0);
-        assert_eq!(least_size([1.0, -6.0], [1.0, 6.0]), 0.0);
-        // 1 + s − s³/4 rises and is least at its beginning.
-        assert_eq!(least_size([1.0, 1.0], [1.75, 0.25]), 1.0);
-        assert_eq!(least_size([3.0, 0.0], [3.0, 0.0]), 3.0);
-    }
-
-    #[test]
-    fn zeros_of_a_root_are_told_from_curves_that_pass_near() {
-        // |s − 0.3|, |(s − 0.3)(s − 2)|, and what falls without passing zero.
-        assert!(passes_zero([0.3, -1.0], [0.7, 1.0]));
-        assert!(passes_zero([0.6, -2.3], [0.7, 0.3]));
-        assert!(!passes_zero([1.0, -0.5], [0.5, -0.5]));
-        // √((s − ½)² + 0.09), and (s − ½)² − 0.04, which is negative between its zeros.
-        let near = 0.34_f64.sqrt();
-        let ends = ([near, -0.5 / near], [near, 0.5 / near]);
-        assert!(!passes_zero(ends.0, ends.1));
-        assert!(extremes(ends.0, ends.1).all(|(_, root)| root > 0.0));
-        let dip = ([0.21, -1.0], [0.21, 1.0]);
-        assert!(!passes_zero(dip.0, dip.1));
-        let least = extremes(dip.0, dip.1).find(|(_, root)| *root < 0.0);
-        assert!(least.is_some_and(|(place, _)| (place - 0.5).abs() < 1e-12));
     }
 }

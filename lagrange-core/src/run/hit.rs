@@ -5,7 +5,7 @@
 pub(super) enum Hit {
     /// Nothing: the whole step is good.
     Nothing,
-    /// Guards of the mode fall through zero (in [`Run::fallen`]) at this part of the step.
+    /// Guards of the mode fall through zero (`fallen` in the locator) at this part of the step.
     Guards(f64),
     /// A slip of two components has turned by a quarter within the step, which ends at this part of it; or one that fades has
     /// passed zero by its error.

@@ -33,7 +33,7 @@ const LAST_TERMS: f64 = 1e-6;
 
 impl<T: Scalar> Run<T> {
     /// Looks at the forces at the last value of the dynamics, in the mode of the run; whether other guards decide than before.
-    pub(super) fn look_at_redundant_forces(&mut self) -> bool {
+    fn look_at_redundant_forces(&mut self) -> bool {
         let was_open = self.switcher.redundant.has_open();
         self.switcher.redundant.follow(&mut self.dynamics);
         (was_open || self.switcher.redundant.has_open()) && self.list_guards()
@@ -52,9 +52,7 @@ impl<T: Scalar> Run<T> {
             }
         }
         // Loads that are nothing now may be large again.
-        let redundant = &mut self.switcher.redundant;
-        redundant.largest = redundant.largest.max(sizes[0]);
-        sizes[0] = redundant.largest;
+        sizes[0] = self.switcher.redundant.largest_force(sizes[0]);
         let until = |last: usize| {
             let share = |first: usize| LAST_TERMS * sizes[first] / sizes[last];
             let times = (0..=last / 2).map(|first| share(first).powf(1.0 / (last - first) as f64));

@@ -5,8 +5,8 @@
 //! gap above a table that shakes does not: where the interpolation is off between its samples the step is made shorter.
 //! Roots of the interpolation are then moved to where the guard vanishes on the dense output.
 
-use super::Run;
 use super::hit::Hit;
+use super::{Run, rest_under_load};
 use crate::arithmetic::Scalar;
 use crate::dynamics::EvaluationError;
 use crate::events::{Direction, Root, RootList, roots};
@@ -59,13 +59,16 @@ impl<T: Scalar> Run<T> {
             }
         }
         if guarded && self.rests_under_load() {
-            worst = worse(worst, self.interpolation_defect_within()?);
+            for s in rest_under_load::WITHIN {
+                self.evaluate_end(s)?;
+                worst = worse(worst, self.defect_of_interpolation(s));
+            }
         }
         Ok(worst)
     }
 
     /// How far interpolated guards are off at part `s` of the step, which the dynamics have evaluated.
-    pub(super) fn defect_of_interpolation(&mut self, s: f64) -> f64 {
+    fn defect_of_interpolation(&mut self, s: f64) -> f64 {
         let (curves, tolerance) = (&self.locator.polynomials, self.settings.tolerance);
         curves.interpolation_defect(&mut self.dynamics, &self.now.mode, s, tolerance)
     }

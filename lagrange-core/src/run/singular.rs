@@ -254,7 +254,7 @@ impl<T: Scalar> Run<T> {
         Some(hit)
     }
 
-    /// Whether constraints are about to lose their rank at the present state: their forces are those of another instant.
+    /// Whether constraints are about to lose their rank at the present state: their forces belong to another instant.
     pub(super) fn is_undecided(&self) -> bool {
         self.now.distance < UNDECIDED
     }

@@ -3,35 +3,23 @@
 use super::accumulation::{Impacts, Train};
 use super::hidden::Hidden;
 use super::{Progress, Run};
-use crate::arithmetic::{Scalar, epsilon, rounding};
-use crate::effects::Item;
+use crate::arithmetic::{Scalar, epsilon};
 use crate::error::Error;
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::decide::Decider;
-use crate::modes::domain;
 use crate::modes::facts::SwitchFacts;
 use crate::modes::guard::{self, Guard};
 use crate::modes::held::HeldBranches;
-use crate::modes::impact::{Collider, Impact};
+use crate::modes::impact::Collider;
 use crate::modes::redundant::RedundantForces;
-use crate::modes::scale::AT_REST;
 use crate::modes::status::ConstraintStatus;
 use crate::modes::table::Table;
 use crate::pool::Pool;
 use crate::system::{Description, Normal};
 use crate::trajectory::State;
 
-/// A gap that changes by no more than so many tolerances per second where its region begins neither closes nor opens there.
-const ENTERS: f64 = 10.0;
-
-/// A body that is closed at some points may be off by so many times more at others.
-const LEVER: f64 = 4.0;
-
 /// Sums of the terms of a step are off by no more than so many units of rounding.
 const UNITS: f64 = 8.0;
-
-/// What is no larger than this beside the terms that make it is what rounding has left of zero.
-const ROUNDING: f64 = 1e-13;
 
 /// What decides how the motion goes on.
 #[derive(Debug)]
@@ -53,7 +41,7 @@ pub(super) struct Switcher<T> {
     /// The state before contacts are closed whose impacts have died out, or what comes to rest is held.
     pub(super) before_holding: State<T>,
     /// Frictions whose slips may end with others.
-    ending: Vec<usize>,
+    pub(super) ending: Vec<usize>,
     /// The mode of a flight through impacts that accumulate.
     pub(super) scratch_mode: Mode,
     pub(super) decider: Decider<T>,
@@ -292,135 +280,6 @@ impl<T: Scalar> Run<T> {
         Ok(hit)
     }
 
-    /// The impact of the contacts whose gaps close, if there is one.
-    fn hit(&mut self, facts: &mut SwitchFacts) -> Result<bool, Error> {
-        let d = self.description();
-        self.evaluate_all_rows()?;
-        self.note_conditions();
-        for c in (0..d.contacts.len()).filter(|&c| !self.now.mode.contacts[c]) {
-            if !facts.arriving[c] {
-                continue;
-            }
-            let (rate, size) = self.rate(d.contacts[c].row);
-            let enters = facts.located.contains(&Guard::Region(c));
-            if enters && rate.abs() <= ENTERS * self.settings.tolerance * size {
-                // It rolls onto the surface.
-                facts.arriving[c] = false;
-            } else if rate > rounding::<T>(1e-12) * size {
-                // A gap that rounding has left below zero may be growing.
-                (facts.touching[c], facts.arriving[c], facts.parting[c]) = (false, false, true);
-                let of_contact = [Guard::Gap(c), Guard::Region(c)];
-                facts.located.retain(|guard| !of_contact.contains(guard));
-            }
-        }
-        if !(0..d.contacts.len()).any(|c| facts.arriving[c] && self.approaching(c)) {
-            return Ok(false);
-        }
-        // What has just parted may be pushed back, and so may what is away by no more than rounding.
-        let mut near = core::mem::take(&mut self.switcher.near);
-        near.clear();
-        let vanish = (0..d.contacts.len()).filter(|&c| facts.touching[c]);
-        let off = vanish.map(|c| self.gap(c).abs()).fold(0.0, f64::max);
-        for c in 0..d.contacts.len() {
-            if facts.touching[c] || facts.parting[c] {
-                near.push(c);
-            } else if self.may_touch(c, facts) && self.is_within_rounding(c, off) {
-                near.push(c);
-                facts.arriving[c] |= self.approaching(c);
-            }
-        }
-        let impacts = self.settings.impacts.unwrap_or(d.impacts);
-        let time = self.now.t.value();
-        let mut solved =
-            (near.iter()).try_for_each(|&c| domain::check_restitution(&self.dynamics, time, c));
-        if solved.is_ok() {
-            solved = self.switcher.collider.solve(
-                &self.dynamics,
-                time,
-                &self.now.state.v,
-                &near,
-                impacts,
-            );
-        }
-        self.switcher.near = near;
-        solved?;
-        let mut outcome = core::mem::take(&mut self.switcher.collider.outcome);
-        self.now.state.v.copy_from_slice(&outcome.v);
-        self.log_impacts(&outcome, facts);
-        self.after_impact(&outcome, facts);
-        let accumulated = self.close_accumulated(&outcome, facts);
-        if let Ok(true) = accumulated {
-            let rest = &self.switcher.collider.rest;
-            outcome.impulses.clone_from(&rest.impulses);
-        }
-        self.switcher.collider.outcome = outcome;
-        accumulated?;
-        Ok(true)
-    }
-
-    /// Contacts that have closed may bring others with them: a beam on two of its four supports lies on all. What comes to the edge of a surface may touch
-    /// another there: a wheel rolls about the edge of a table. Their gaps and rates vanish, and nothing but rounding would tell later which of them closes when. What an impact has thrown off is among them where the impacts
-    /// of the others end with it.
-    fn take_what_touches(&mut self, facts: &mut SwitchFacts) {
-        let d = self.description();
-        let contacts = 0..d.contacts.len();
-        if !contacts.clone().any(|c| self.may_touch(c, facts)) {
-            return;
-        }
-        self.tape_of_all_rows();
-        self.now.valued = false;
-        let closed = contacts.clone().filter(|&c| facts.touching[c]);
-        let off = closed.map(|c| self.gap(c).abs()).fold(0.0, f64::max);
-        for c in contacts {
-            if self.may_touch(c, facts) && self.touches(c, off) {
-                self.end(c, facts);
-                let rubs = |f: &usize| d.frictions[*f].normal.is_of(c);
-                for f in (0..d.frictions.len()).filter(rubs) {
-                    facts.resting[f] = self.slip_vanishes(f);
-                }
-            }
-        }
-    }
-
-    /// The gap of contact `c`.
-    pub(super) fn gap(&self, c: usize) -> f64 {
-        let d = self.description();
-        let place = d.rows[d.contacts[c].row].position;
-        place.map_or(0.0, |place| self.dynamics.motion(place).value())
-    }
-
-    /// Whether contact `c` is none that is known to touch, to be below its surface or at the edge of it.
-    fn may_touch(&self, c: usize, facts: &SwitchFacts) -> bool {
-        let takes_part = self
-            .dynamics
-            .effects()
-            .includes(self.description(), Item::Contact(c));
-        let is_at_edge = facts.located.contains(&Guard::Region(c));
-        takes_part && !(facts.touching[c] || self.now.below[c] || is_at_edge)
-    }
-
-    /// Whether rounding explains the gap of contact `c`, or what the run has left of the gaps that vanish, which are `off` by so much: a table that
-    /// falls back from two of its feet lands on the others at once.
-    fn is_within_rounding(&self, c: usize, off: f64) -> bool {
-        self.is_in_region(c) && self.gap(c).abs() <= self.rounding_of_gap(c).max(LEVER * off)
-    }
-
-    /// Whether the gap of contact `c` and its rate vanish beside the terms that make them; gaps that vanish are `off` by so much.
-    fn touches(&self, c: usize, off: f64) -> bool {
-        let contact = &self.description().contacts[c];
-        let number = |place| self.dynamics.motion(place).value();
-        let row = &self.description().rows[contact.row];
-        let gap = self.gap(c);
-        let terms = row.jacobian.iter();
-        let extent: f64 = terms
-            .map(|&(j, place)| number(place).abs() * self.now.state.q[j].value().abs().max(1.0))
-            .sum();
-        let (rate, size) = self.rate(contact.row);
-        self.is_in_region(c)
-            && gap.abs() <= rounding::<T>(ROUNDING) * extent + off
-            && rate.abs() <= rounding::<T>(ROUNDING) * size
-    }
-
     /// Whether the switch has brought rows that the state need not satisfy to rounding.
     fn rows_have_joined(&self) -> bool {
         let (before, after) = (&self.recorder.before.mode, &self.now.mode);
@@ -429,177 +288,5 @@ impl<T: Scalar> Run<T> {
         contacts.any(|(before, after)| !before & after)
             || frictions.any(|(before, after)| before != after && *after == FrictionMode::Stick)
             || before.branches != after.branches
-    }
-
-    /// Whether the gap of contact `c` closes at the present state: faster than rounding does.
-    fn approaching(&self, c: usize) -> bool {
-        let d = self.description();
-        let (rate, size) = self.rate(d.contacts[c].row);
-        self.dynamics.effects().includes(d, Item::Contact(c))
-            && rate < -rounding::<T>(ROUNDING) * size
-    }
-
-    /// What is known after an impact; `dynamics` still holds the state before.
-    fn after_impact(&self, outcome: &Impact<T>, facts: &mut SwitchFacts) {
-        let d = self.description();
-        for &c in &self.switcher.near {
-            facts.touching[c] = outcome.stays[c];
-            facts.parting[c] = !outcome.stays[c];
-        }
-        for (f, friction) in d.frictions.iter().enumerate() {
-            // A body that falls flat on its face while a corner of it sticks pushes that corner by the error of its angle.
-            let sticks_on = self.now.mode.frictions[f] == FrictionMode::Stick
-                && outcome.slips[f] <= self.settings.tolerance;
-            facts.resting[f] = match friction.normal {
-                Normal::Contact(c) if !self.switcher.near.contains(&c) => facts.resting[f],
-                // Others that stick may have ended its slip.
-                Normal::Contact(_) | Normal::Constraint(_) | Normal::Resultant(_) => {
-                    outcome.sticks[f] || sticks_on || self.rests_after(outcome, f)
-                }
-                // No impulse acts there, but the impact may have begun or ended its slip.
-                Normal::Given(_) => self.rests_after(outcome, f),
-            };
-        }
-        // Velocities have jumped: what was located for the old ones says nothing about the new.
-        facts.jumped = true;
-        facts.located.clear();
-    }
-
-    /// Whether the slip of friction `f` vanishes after an impact.
-    fn rests_after(&self, outcome: &Impact<T>, f: usize) -> bool {
-        let friction = &self.description().frictions[f];
-        friction.rows().all(|row| {
-            let (mut slip, mut size) = self.rate(row);
-            let jacobian = self.description().rows[row].jacobian.iter();
-            for &(j, place) in jacobian {
-                let jump = (outcome.v[j] - self.recorder.before.state.v[j]).value();
-                let part = self.dynamics.motion(place).value() * jump;
-                slip += part;
-                size += part.abs();
-            }
-            slip.abs() <= rounding::<T>(ROUNDING) * size
-        })
-    }
-
-    /// A contact that closes without impact carries frictions whose slip nobody has looked at, and may end slips that its rate is
-    /// part of: a stop that carries what rubs against it.
-    fn rest_where_slip_vanishes(&mut self, facts: &mut SwitchFacts) -> Result<(), Error> {
-        let d = self.description();
-        let closes = facts.arriving.contains(&true);
-        let wakes = |run: &Self, facts: &SwitchFacts, f: usize| {
-            d.frictions[f].normal.presses(|c| facts.touching[c])
-                && !facts.resting[f]
-                && (closes || run.now.mode.frictions[f] == FrictionMode::Inactive)
-                && run.dynamics.effects().includes(d, Item::Friction(f))
-        };
-        if !(0..d.frictions.len()).any(|f| wakes(self, facts, f)) {
-            return Ok(());
-        }
-        self.evaluate_all_rows()?;
-        for f in 0..d.frictions.len() {
-            if wakes(self, facts, f) {
-                facts.resting[f] = self.slip_vanishes(f);
-            }
-        }
-        Ok(())
-    }
-
-    /// What comes to rest may end other slips of which it leaves nothing: the brake of one axle stops the car, and with it the locked wheels
-    /// of the other one. Their zeros are one instant, which drift from the rows that act tears apart.
-    fn rest_with_what_comes_to_rest(&mut self, facts: &mut SwitchFacts) -> Result<(), Error> {
-        let comes = |guard: &Guard| matches!(guard, Guard::Slip(_));
-        let slips = |f: &usize| {
-            matches!(self.now.mode.frictions[*f], FrictionMode::Slip(_)) && !facts.resting[*f]
-        };
-        let mut ending = core::mem::take(&mut self.switcher.ending);
-        ending.clear();
-        if self.locator.fallen.iter().any(comes) {
-            ending.extend((0..facts.resting.len()).filter(slips));
-        }
-        self.rest_among(ending, facts)
-    }
-
-    /// A slip after an impact may be the error of rows that hold on: of a box that lands in the corner of a floor and a wall that move together.
-    fn rest_where_impact_leaves_nothing(&mut self, facts: &mut SwitchFacts) -> Result<(), Error> {
-        let d = self.description();
-        let rubs = |f: &usize| {
-            let friction = &d.frictions[*f];
-            d.rows[friction.row].rheonomic
-                && friction.normal.presses(|c| facts.touching[c])
-                && !facts.resting[*f]
-                && self.dynamics.effects().includes(d, Item::Friction(*f))
-        };
-        let mut ending = core::mem::take(&mut self.switcher.ending);
-        ending.clear();
-        if facts.touching.contains(&true) {
-            ending.extend((0..d.frictions.len()).filter(rubs));
-        }
-        self.rest_among(ending, facts)
-    }
-
-    /// Which of these slips are the errors of rows, and rest.
-    fn rest_among(&mut self, mut ending: Vec<usize>, facts: &mut SwitchFacts) -> Result<(), Error> {
-        if !ending.is_empty() {
-            self.evaluate_all_rows()?;
-        }
-        ending.retain(|&f| {
-            self.rates_of_slip(f)
-                .all(|(slip, size)| slip.abs() <= self.settings.tolerance * size.max(1.0))
-        });
-        if !ending.is_empty() {
-            self.rest_if_nothing_is_left(&ending, facts);
-        }
-        self.switcher.ending = ending;
-        Ok(())
-    }
-
-    /// Which of these slips vanish once all that rests sticks, and what touches stays closed.
-    fn rest_if_nothing_is_left(&mut self, ending: &[usize], facts: &mut SwitchFacts) {
-        self.switcher.before_holding.clone_from(&self.now.state);
-        let mode = &mut self.switcher.scratch_mode;
-        mode.clone_from(&self.now.mode);
-        mode.contacts.copy_from_slice(&facts.touching);
-        mode.release_sticking();
-        for (friction, resting) in mode.frictions.iter_mut().zip(&facts.resting) {
-            if *resting {
-                *friction = FrictionMode::Stick;
-            }
-        }
-        self.dynamics.set_mode(&self.switcher.scratch_mode);
-        // Where no velocity satisfies all rows together, none of the slips has ended.
-        if self.project(true).is_ok() && self.evaluate_all_rows().is_ok() {
-            for &f in ending {
-                facts.resting[f] = self.slip_vanishes(f);
-            }
-        }
-        self.now.state.clone_from(&self.switcher.before_holding);
-        self.dynamics.set_mode(&self.now.mode);
-        self.now.valued = false;
-    }
-
-    /// Whether the slip of friction `f` is zero beside the terms that make it.
-    pub(super) fn slip_vanishes(&self, f: usize) -> bool {
-        let sizes = self.rates_of_slip(f).map(|(_, size)| size);
-        let size = sizes.fold(0.0, f64::max);
-        let mut rates = self.rates_of_slip(f);
-        rates.all(|(rate, _)| rate.abs() <= rounding::<T>(ROUNDING) * size)
-    }
-
-    /// [`Self::rate`] of every component of the slip of friction `f`.
-    fn rates_of_slip(&self, f: usize) -> impl Iterator<Item = (f64, f64)> {
-        let friction = &self.description().frictions[f];
-        let rows = friction.rows();
-        rows.map(|row| self.rate(row))
-    }
-
-    /// Rate of a row (slip, rate of a gap) and the size of the terms that make it; a velocity that is zero is so only to some
-    /// 1e-16 of the unit, as projections leave it.
-    pub(super) fn rate(&self, row: usize) -> (f64, f64) {
-        let row = &self.description().rows[row];
-        let number = |place| self.dynamics.motion(place).value();
-        let size = |j: usize| self.now.state.v[j].value().abs() + AT_REST;
-        let terms = row.jacobian.iter();
-        let sizes = terms.map(|&(j, place)| number(place).abs() * size(j));
-        (number(row.velocity), sizes.sum())
     }
 }

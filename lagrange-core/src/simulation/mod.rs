@@ -10,15 +10,14 @@ pub use crate::state::FixedComponents;
 pub use ensemble::Ensemble;
 pub use runner::Runner;
 
-use crate::arithmetic::{Scalar, epsilon};
+use crate::arithmetic::Scalar;
 use crate::effects::Effects;
 use crate::error::Error;
 use crate::handle::CoordinateId;
 use crate::integrate::Method;
 use crate::monitor::Monitor;
 use crate::precompiled::Runnable;
-use crate::settings::{Goal, Settings};
-use crate::system::ErasedSystem;
+use crate::settings::{Goal, Settings, is_single};
 use crate::system::{Impacts, System};
 use crate::trajectory::{Instant, State, Trajectory};
 use core::borrow::Borrow;
@@ -254,7 +253,7 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
             sizes.resize(self.scene.description().coordinates.len(), 1.0);
         }
         for &(CoordinateId(i), absolute) in &self.settings.absolute {
-            // What is none of the system is refused when a run begins.
+            // Items that the system does not have are refused when a run begins.
             sizes.resize(sizes.len().max(i + 1), 1.0);
             sizes[i] = absolute / asked;
         }
@@ -294,127 +293,5 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
         state: impl Borrow<State<S::Scalar>>,
     ) -> Result<Vec<Instant<S::Scalar>>, Error> {
         self.runner().feasible_modes(time, state)
-    }
-}
-
-/// Whether numbers have 24 bits only.
-fn is_single<T: Scalar>() -> bool {
-    epsilon::<T>() > f64::EPSILON
-}
-
-/// Refuses a handle that names nothing in this system: its index is not below the number of items of its kind.
-fn check_place(what: &'static str, (index, count): (usize, usize)) -> Result<(), Error> {
-    if index < count {
-        return Ok(());
-    }
-    Err(Error::Argument {
-        what,
-        value: index as f64,
-        expected: "less than this system has items of its kind; the handle is one of another system",
-    })
-}
-
-impl Settings {
-    /// Checks what the caller set.
-    pub(crate) fn check<T: Scalar>(
-        &self,
-        system: &dyn ErasedSystem<T>,
-        start: &State<T>,
-        span: &Range<f64>,
-    ) -> Result<(), Error> {
-        let d = system.description();
-        let n = d.coordinates.len();
-        let (least, expected) = match is_single::<T>() {
-            true => (1e-7, "between 1e-7 and 0.1 in single precision"),
-            false => (1e-17, "between 1e-17 and 0.1"),
-        };
-        if !(least..=0.1).contains(&self.tolerance) {
-            return Err(Error::Argument {
-                what: "tolerance",
-                value: self.tolerance,
-                expected,
-            });
-        }
-        if self.sizes.len() > n {
-            return Err(Error::Dimension {
-                expected: n,
-                found: self.sizes.len(),
-            });
-        }
-        let mut absolute = self.absolute.iter();
-        // A size overflows where the relative tolerance is far smaller.
-        let usable = |&&(CoordinateId(i), value): &&(CoordinateId, f64)| {
-            value > 0.0 && self.sizes[i].is_finite()
-        };
-        if let Some(&(CoordinateId(i), value)) = absolute.find(|given| !usable(given)) {
-            return Err(Error::Domain {
-                time: span.start,
-                item: d.coordinates[i].name,
-                what: "absolute tolerance",
-                value,
-                expected: "positive and finite".to_owned(),
-                fields: Vec::new(),
-            });
-        }
-        for item in self.effects.left_out() {
-            check_place("index of the item that is left out", item.place(d))?;
-        }
-        for awaited in &self.last_events {
-            let place = awaited.subject.place(d);
-            check_place("index of the item after whose event the run ends", place)?;
-        }
-        if let Method::RungeKutta4 { step } | Method::Gauss6 { step } = self.method
-            && !(step > 0.0 && step.is_finite())
-        {
-            return Err(Error::Argument {
-                what: "step of the method",
-                value: step,
-                expected: "positive",
-            });
-        }
-        for (what, value) in [("first time", span.start), ("last time", span.end)] {
-            if !value.is_finite() {
-                return Err(Error::Argument {
-                    what,
-                    value,
-                    expected: "finite",
-                });
-            }
-        }
-        if span.end < span.start {
-            return Err(Error::Argument {
-                what: "last time",
-                value: span.end,
-                expected: "not before the first",
-            });
-        }
-        start.check_dimension(n)?;
-        for (i, parameter) in d.parameters.iter().enumerate() {
-            let value = system.parameter(i).value();
-            if !value.is_finite() {
-                return Err(Error::Argument {
-                    what: parameter.name,
-                    value,
-                    expected: "finite",
-                });
-            }
-        }
-        for (what, numbers) in [
-            ("position at the start", &start.q),
-            ("velocity at the start", &start.v),
-        ] {
-            let mut numbers = numbers.iter().map(|x| x.value()).enumerate();
-            if let Some((i, value)) = numbers.find(|(_, x)| !x.is_finite()) {
-                return Err(Error::Domain {
-                    time: span.start,
-                    item: d.coordinates[i].name,
-                    what,
-                    value,
-                    expected: "finite".to_owned(),
-                    fields: Vec::new(),
-                });
-            }
-        }
-        Ok(())
     }
 }

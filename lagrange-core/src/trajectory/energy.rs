@@ -160,7 +160,7 @@ impl<'a, T: Scalar> EnergyMeter<'a, T> {
     }
 
     /// Energies at part `s` of a segment.
-    pub(super) fn energies_inside(&mut self, index: usize, s: T) -> Result<Energies<T>, Error> {
+    fn energies_inside(&mut self, index: usize, s: T) -> Result<Energies<T>, Error> {
         let (mode, segment) = self.enter_segment(index);
         let state = self.sampler.place(index, s)?;
         let energies = self.energies_entered(segment.t + segment.h * s, mode, &state);

@@ -31,7 +31,7 @@ pub struct Instant<T> {
     pub forces: Vec<T>,
     /// Per row: whether the motion leaves its force open. Empty where all forces are determined.
     pub undetermined: Vec<bool>,
-    /// Per row: the size of what its force holds in balance; a force that is a rounding error of it is none.
+    /// Per row: the size of what its force holds in balance; a force no larger than rounding of that counts as zero.
     pub held: Vec<T>,
     /// Gap of every contact.
     pub gaps: Vec<T>,
@@ -306,7 +306,7 @@ pub(super) fn report_needs(d: &Description) -> OutputMask {
 /// Everything about a state in the present mode; all numbers of the rows and the report must have been asked for.
 ///
 /// # Errors
-/// Those of [`Dynamics::value`].
+/// The same as [`Dynamics::value`].
 pub(crate) fn instant<T: Scalar>(
     dynamics: &mut Dynamics<T>,
     redundant: &mut RedundantForces<T>,

@@ -146,7 +146,7 @@ impl<T: Scalar> Radau<T> {
     /// evaluation.
     ///
     /// # Errors
-    /// Of the system at the start.
+    /// The system has no accelerations at the start.
     pub fn first_step<A: Acceleration<T>>(
         &mut self,
         system: &mut A,

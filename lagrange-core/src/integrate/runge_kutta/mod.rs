@@ -97,7 +97,7 @@ impl<T: Scalar> RungeKutta<T> {
     /// Wanner 1993, section II.4). Two evaluations, one of which the first step uses again.
     ///
     /// # Errors
-    /// Of the system at the start.
+    /// The system has no accelerations at the start.
     pub fn first_step<A: Acceleration<T>>(
         &mut self,
         system: &mut A,

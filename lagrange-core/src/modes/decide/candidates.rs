@@ -14,7 +14,7 @@ use crate::system::{Description, Normal};
 /// once. Beyond, [`pivot`](super::pivot) finds a mode without looking at all.
 pub const MOST_CANDIDATES: usize = 256;
 
-/// Of one friction: stick, and two slips under each of two bearings.
+/// States that one friction can be in: stick, and two directions of slip for each of two signs of the normal force.
 const MOST_STATES: usize = 5;
 
 /// Lists of candidates that are kept, for what a motion meets again and again.

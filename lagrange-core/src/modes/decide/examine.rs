@@ -1,15 +1,13 @@
-//! Whether one candidate mode is feasible: its guards just after the instant.
+//! Whether one candidate mode is feasible: its guards at the instant and, of those that vanish, just after it.
 
 use super::Decider;
-use super::questions::{concerns, leading, list_questions, unit_of_order};
+use super::questions::{blame, concerns, leading, list_questions};
 use crate::arithmetic::Scalar;
-use crate::arithmetic::products::ROW;
 use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
 use crate::integrate::Tolerance;
 use crate::integrate::taylor;
 use crate::mode::{FrictionMode, Mode};
-use crate::modes::composite::{self, CompositeGuard};
-use crate::modes::facts::{EvaluationPoint, SwitchContext, SwitchFacts};
+use crate::modes::facts::{EvaluationPoint, SwitchContext};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
 use crate::modes::scale::AT_REST;
@@ -22,14 +20,8 @@ const LOW_ORDER: usize = 4;
 /// A composite guard above this (relative) is not about to fall.
 const BORDER: f64 = 1e-3;
 
-/// How far ahead guards at their border are looked at, in parts of the step.
-const AHEAD: f64 = 1e-2;
-
 /// What is no larger than so many times a residue is one.
 const RESIDUES: f64 = 10.0;
-
-/// So many composite guards at most begin at their border.
-const MOST_JOINTS: usize = 20;
 
 /// A row that acts and whose rate grows beyond this share of what it is made of, over a step, does not follow from the others.
 const APART: f64 = 1e-6;
@@ -39,32 +31,6 @@ const NOTHING: f64 = 1e-12;
 
 /// as shows in how it changes with the state, when that changes by so much, relative.
 const SHAKE: f64 = 1e-8;
-
-/// What a guard does just after the instant, with the number of leading coefficients that vanish.
-enum Leading {
-    Rises(usize),
-    Falls,
-    /// Identically zero, as far as the series goes: the boundary is not left.
-    Stays,
-}
-
-/// What happens after the moment, by a series of the order `order`, over times up to about `h`.
-struct Ahead<'a, T: Scalar> {
-    dynamics: &'a Dynamics<T>,
-    here: SwitchContext<'a, T>,
-    order: usize,
-    h: f64,
-    /// Error of a series over such a time.
-    allowed: Tolerance<'a>,
-}
-
-impl<T: Scalar> Clone for Ahead<'_, T> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<T: Scalar> Copy for Ahead<'_, T> {}
 
 impl<T: Scalar> Decider<T> {
     /// Whether `mode` is feasible; if so, `zeros` says which guards begin with how many vanishing coefficients, and if not,
@@ -327,213 +293,9 @@ impl<T: Scalar> Decider<T> {
     }
 
     /// Size of the terms that make a guard.
-    fn size(&self, guard: Guard, dynamics: &Dynamics<T>) -> f64 {
+    pub(super) fn size(&self, guard: Guard, dynamics: &Dynamics<T>) -> f64 {
         let mut doubtful = self.doubtful.iter();
         let shaken = doubtful.find_map(|(other, _, size)| (*other == guard).then_some(*size));
         self.sizes.of(guard, dynamics).max(shaken.unwrap_or(0.0))
-    }
-
-    /// Looks at the guards in question just after the moment. `None`: one of them vanishes to this order, and more is to
-    /// be had.
-    fn judge(
-        &mut self,
-        dynamics: &Dynamics<T>,
-        here: SwitchContext<'_, T>,
-        order: usize,
-    ) -> Option<bool> {
-        let SwitchContext { moment, facts, .. } = here;
-        let last = order == moment.order;
-        // A low order's last coefficient is small enough at the same step for a loose tolerance only.
-        let allowed = if last {
-            moment.tolerance.max(f64::EPSILON)
-        } else {
-            1e-3
-        };
-        let allowed = Tolerance::both(allowed);
-        let step = taylor::step_size(dynamics.state_series(), order, allowed);
-        let h = step.filter(|h| h.is_finite()).unwrap_or(1.0);
-        let ahead = Ahead {
-            dynamics,
-            here,
-            order,
-            h,
-            allowed,
-        };
-        let mut unclear = false;
-        let questions = core::mem::take(&mut self.questions);
-        for &(guard, order_known) in &questions {
-            let mut series = [0.0; guard::LENGTH];
-            let series = &mut series[..=order];
-            match self.just_after(guard, order_known, ahead, series) {
-                Leading::Falls => blame(guard, &self.composites, &mut self.violated),
-                Leading::Rises(0) => {}
-                Leading::Rises(k) => self.zeros.push((guard, k)),
-                Leading::Stays if !last => unclear = true,
-                Leading::Stays
-                    if self.sticks_first && matches!(guard, Guard::Slip(_))
-                        || !self.lies_loosely && is_held::<T>(guard, facts, dynamics) =>
-                {
-                    self.violated.push(guard);
-                }
-                // Whatever sign rounding has given it.
-                Leading::Stays => {
-                    self.zeros.push((guard, guard::LENGTH));
-                    if guard.is_single_force() {
-                        self.at_limit.push((guard, self.size(guard, dynamics)));
-                    }
-                }
-            }
-        }
-        if self.violated.is_empty() && !unclear && !self.composites.is_empty() {
-            self.look_ahead(ahead);
-        }
-        self.questions = questions;
-        if self.violated.is_empty() && unclear {
-            return None;
-        }
-        Some(self.violated.is_empty())
-    }
-
-    /// At the border several composite guards may vanish together: a little later those that fall show.
-    fn look_ahead(&mut self, ahead: Ahead<'_, T>) {
-        let mut series = [0.0; guard::LENGTH];
-        let series = &mut series[..=ahead.order];
-        let (reading, later) = (Reading::Series(ahead.dynamics), AHEAD * ahead.h);
-        for _ in 0..MOST_JOINTS {
-            let found = self.redundant.critical_at(|guard, plane| {
-                composite::side(guard, plane, &self.posed, &reading, series);
-                crate::integrate::horner(series, later)
-            });
-            let Some(composite) = found else {
-                return;
-            };
-            let index = self.composites.len();
-            self.composites.push(composite);
-            match self.just_after(Guard::Composite(index), 0, ahead, series) {
-                Leading::Falls => {
-                    return blame(
-                        Guard::Composite(index),
-                        &self.composites,
-                        &mut self.violated,
-                    );
-                }
-                Leading::Rises(0) => {}
-                Leading::Rises(k) => self.zeros.push((Guard::Composite(index), k)),
-                Leading::Stays => return self.zeros.push((Guard::Composite(index), guard::LENGTH)),
-            }
-        }
-    }
-
-    /// What a guard does just after the moment; its series, scaled onto the reach, is left in `series`.
-    fn just_after(
-        &self,
-        guard: Guard,
-        order_known: usize,
-        ahead: Ahead<'_, T>,
-        series: &mut [f64],
-    ) -> Leading {
-        let Ahead {
-            dynamics,
-            here,
-            order,
-            h,
-            allowed,
-        } = ahead;
-        let tolerance = here.moment.tolerance;
-        let reading = Reading::Series(dynamics);
-        composite::series(
-            guard,
-            &self.composites,
-            &self.posed,
-            &reading,
-            &composite::ONES,
-            series,
-        );
-        series[..order_known].fill(0.0);
-        // In free flight the motion has a series that ends, and reaches everywhere; that of the wall that it has left does not.
-        let mut row = [0.0; ROW];
-        row[..series.len()].copy_from_slice(series);
-        let own = taylor::step_size([&[row], &[]], order, allowed);
-        let h = own.map_or(h, |own| own.min(h));
-        let mut power = 1.0;
-        for c in &mut *series {
-            *c *= power;
-            power *= h;
-        }
-        let size = series.iter().fold(0.0_f64, |size, c| size.max(c.abs()));
-        // The residue of a located root, and what follows from it, has the size of the integration error.
-        let (relative, absolute) = if concerns(guard, &self.composites, here.facts) {
-            ((100.0 * tolerance).clamp(1e-11, 1e-3), here.blur())
-        } else {
-            (1e-13, 1e-14)
-        };
-        let cancelling = match guard {
-            Guard::Branch(b) if here.facts.held[b] => self.size_as_of_rows(size, ahead, h),
-            _ => self.size(guard, dynamics) * unit_of_order(guard, h),
-        };
-        let noise = (relative * size).max(absolute * cancelling);
-        match series.iter().position(|c| c.abs() > noise) {
-            None => Leading::Stays,
-            Some(k) if series[k] < 0.0 => Leading::Falls,
-            Some(k) => Leading::Rises(k),
-        }
-    }
-
-    /// Size of what makes the guard of a branch that contacts or frictions have held at its border until now, and which changes by `size` over a
-    /// time `h`: that of the gaps or slips of those, by which it changes.
-    fn size_as_of_rows(&self, size: f64, ahead: Ahead<'_, T>, h: f64) -> f64 {
-        let Ahead {
-            dynamics,
-            here,
-            order,
-            ..
-        } = ahead;
-        let mut series = [0.0; guard::LENGTH];
-        let series = &mut series[..=order];
-        let slips = |f: usize| matches!(self.posed.frictions[f], FrictionMode::Slip(_));
-        let left = here.facts.located.iter().filter_map(|guard| match *guard {
-            Guard::Normal(c) if !self.posed.contacts[c] => Some((Guard::Gap(c), 2)),
-            Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) if slips(f) => {
-                Some((Guard::Slip(f), 1))
-            }
-            _ => None,
-        });
-        let sizes = left.map(|(row, known)| {
-            let reading = Reading::Series(dynamics);
-            guard::series(row, &self.posed, &reading, &composite::ONES, series);
-            let powers = core::iter::successors(Some(1.0), |power| Some(power * h));
-            let terms = series.iter().zip(powers).skip(known);
-            let grows = terms.fold(0.0_f64, |largest, (c, power)| {
-                largest.max((c * power).abs())
-            });
-            if grows > 0.0 {
-                self.sizes.of(row, dynamics) * unit_of_order(row, h) * size / grows
-            } else {
-                0.0
-            }
-        });
-        sizes.fold(0.0, f64::max)
-    }
-}
-
-/// Whether a contact cannot open because others are closed, or a friction cannot slip because others stick: then the mode
-/// in which it is closed, or sticks, has the same motion, and more forces to choose from. Not so a contact that a force has left which
-/// was determined, because the sliding friction of the others depends on it.
-fn is_held<T: Scalar>(guard: Guard, facts: &SwitchFacts, dynamics: &Dynamics<T>) -> bool {
-    let d = dynamics.description();
-    let mut rows = match guard {
-        Guard::Gap(c) if facts.located.contains(&Guard::Normal(c)) => return false,
-        Guard::Gap(c) => d.contacts[c].row..d.contacts[c].row + 1,
-        Guard::Slip(f) => d.frictions[f].rows(),
-        _ => return false,
-    };
-    rows.all(|row| dynamics.follows(row))
-}
-
-/// Books what forbids a mode: of a composite guard, its parts.
-fn blame(guard: Guard, composites: &[CompositeGuard], violated: &mut Vec<Guard>) {
-    match guard {
-        Guard::Composite(index) => violated.extend(composites[index].parts.iter().map(|p| p.guard)),
-        single => violated.push(single),
     }
 }

@@ -12,6 +12,7 @@ mod candidates;
 mod examine;
 mod guess;
 mod incipient;
+mod just_after;
 mod pivot;
 mod questions;
 mod together;
@@ -69,7 +70,7 @@ pub struct Decider<T> {
     /// Branches that the candidate examined last holds at their border.
     held: HeldBranches<T>,
     sizes: Sizes,
-    /// Whether they are those of the state at hand.
+    /// Whether the sizes belong to the present state.
     sized: bool,
     /// Whether a friction that would slip and yet stay at rest must stick.
     sticks_first: bool,
@@ -79,11 +80,11 @@ pub struct Decider<T> {
     tried: usize,
     /// Needs of everything about every row.
     rows: OutputMask,
-    /// These and what the motion needs in any mode.
+    /// Needs of all rows and of the motion in any mode.
     everything: OutputMask,
     /// The candidate under examination, with the directions in which its slips begin.
     posed: Mode,
-    /// The same of the best one.
+    /// The best candidate so far, with the directions in which its slips begin.
     best: Mode,
     /// Whether its slip could begin in another direction.
     forks: bool,

@@ -139,3 +139,11 @@ pub(super) fn unit_of_order(guard: Guard, h: f64) -> f64 {
         _ => 1.0,
     }
 }
+
+/// Books what forbids a mode: of a composite guard, its parts.
+pub(super) fn blame(guard: Guard, composites: &[CompositeGuard], violated: &mut Vec<Guard>) {
+    match guard {
+        Guard::Composite(index) => violated.extend(composites[index].parts.iter().map(|p| p.guard)),
+        single => violated.push(single),
+    }
+}

@@ -19,7 +19,7 @@ use crate::arithmetic::{Scalar, rounding};
 /// Bisections for the share of the restitution.
 const BISECTIONS: usize = 60;
 
-/// Equations that contradict one another by less than this share of the restitution seem to hold: it is none.
+/// Equations that contradict one another by less than this share of the restitution count as satisfied: it is as if there were no restitution.
 const LEAST_SHARE: f64 = 1e-6;
 
 /// Solves impacts by their laws; the memory is reused.

@@ -19,9 +19,9 @@ mod law;
 mod pattern;
 mod relaxation;
 mod search;
+mod sequential;
 #[cfg(test)]
 mod tests;
-mod turn;
 mod turning;
 
 use crate::arithmetic::{Scalar, epsilon};
@@ -32,7 +32,7 @@ use collision::Collision;
 use gather::Gathering;
 use law::Law;
 use pattern::length;
-use turn::{MOST_IMPACTS, Stuck, Turns};
+use sequential::{MOST_IMPACTS, Stuck, Turns};
 
 /// An impact may miss its energy balance by this share, and no more.
 const GAIN: f64 = 1e-9;
@@ -67,7 +67,7 @@ pub struct Impact<T> {
     pub undetermined: bool,
     /// Whether other impacts satisfy the law as well.
     pub ambiguous: bool,
-    /// Those of them that are known as a whole.
+    /// Other impacts that satisfy the law, as far as they are known as a whole.
     pub others: Vec<OtherImpact<T>>,
 }
 
@@ -105,7 +105,7 @@ impl<T: Scalar> Collider<T> {
     /// The impact in which contacts come to rest that have bounced infinitely often, without restitution, into [`Self::rest`].
     ///
     /// # Errors
-    /// Those of [`Self::solve`].
+    /// The same as [`Self::solve`].
     pub fn bring_to_rest(
         &mut self,
         dynamics: &Dynamics<T>,

@@ -10,7 +10,7 @@ use crate::arithmetic::{Scalar, rounding};
 const MOST_SWEEPS: usize = 3000;
 /// Sweeps end when impulses change by less than this share.
 const STEADY: f64 = 1e-12;
-/// Slips below this share of the rates are none.
+/// Slips below this share of the rates count as zero.
 const SLIP: f64 = 1e-8;
 
 /// Impulses and rates on the way; the memory is reused.

@@ -2,7 +2,7 @@
 
 use super::collision::{Collision, ContactRow, FrictionRow, NormalSource};
 use super::law::Law;
-use super::turn::{Stuck, Turns};
+use super::sequential::{Stuck, Turns};
 
 /// Seeded random numbers.
 struct Random(fastrand::Rng);

@@ -31,10 +31,10 @@ pub struct RedundantForces<T> {
     signs: Vec<f64>,
     bounds: Bounds,
     sizes: Sizes,
-    /// What has driven most so far.
-    strongest: f64,
+    /// The largest drive so far: loads that are nothing now may be large again.
+    largest_drive: f64,
     /// The largest force so far.
-    pub largest: f64,
+    largest_force: f64,
 }
 
 /// What rounding leaves of a bound, relative to its size.
@@ -50,7 +50,7 @@ impl<T: Scalar> RedundantForces<T> {
     /// Forgets what belongs to another motion.
     pub fn restart(&mut self) {
         self.clear();
-        (self.strongest, self.largest) = (0.0, 0.0);
+        (self.largest_drive, self.largest_force) = (0.0, 0.0);
     }
 
     /// Forgets everything: all forces are determined.
@@ -84,8 +84,8 @@ impl<T: Scalar> RedundantForces<T> {
         self.least = dynamics.least_norm_of_acting();
         dynamics.complete_outputs();
         self.sizes.take(dynamics);
-        self.strongest = self.strongest.max(self.sizes.drive);
-        self.sizes.drive = self.strongest;
+        self.largest_drive = self.largest_drive.max(self.sizes.drive);
+        self.sizes.drive = self.largest_drive;
         true
     }
 
@@ -193,7 +193,13 @@ impl<T: Scalar> RedundantForces<T> {
     pub fn raised(&mut self, dynamics: &mut Dynamics<T>) -> f64 {
         dynamics.complete_outputs();
         self.sizes.take(dynamics);
-        self.strongest / self.sizes.drive
+        self.largest_drive / self.sizes.drive
+    }
+
+    /// The largest force so far, of which one has now this `size`.
+    pub fn largest_force(&mut self, size: f64) -> f64 {
+        self.largest_force = self.largest_force.max(size);
+        self.largest_force
     }
 
     /// The composite guard that forbids the mode, or comes nearer to that than `margin` (relative): of all the smallest.

@@ -17,7 +17,7 @@ impl<T: Scalar> Run<T> {
     /// # Errors
     /// [`Error::OutOfReach`] if it is not.
     #[inline]
-    pub(super) fn check_outlook(&self) -> Result<(), Error> {
+    pub(super) fn check_reach(&self) -> Result<(), Error> {
         match self.recorder.trajectory.work.steps.is_power_of_two() {
             true => self.look_ahead(),
             false => Ok(()),

@@ -21,7 +21,7 @@ use crate::trajectory::State;
 const LEFT: f64 = 1.0;
 /// The same for a slip that comes to rest with another one: half of what a certificate lets states jump by.
 const LEFT_TOGETHER: f64 = 8.0;
-/// A slip that is no larger, beside what it is made of, is none.
+/// A slip no larger than this share of its terms counts as zero.
 const NOTHING: f64 = 1e-13;
 /// A slip is off by so much of what it is made of,
 const ROUNDING: f64 = 1e-15;

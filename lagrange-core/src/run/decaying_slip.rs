@@ -95,7 +95,7 @@ impl<T: Scalar> Run<T> {
         slip.is_some_and(|slip| value(slip, s).abs() <= self.margin())
     }
 
-    /// Whether a guard is that of the slip of friction `f`, or that of a branch which turns with it.
+    /// Whether a guard belongs to the slip of friction `f`, or to a branch that turns with it.
     fn turns_with(&self, f: usize, guard: Guard) -> bool {
         let polynomial = |guard| self.locator.polynomials.of(guard);
         let slip = Guard::Slip(f);

@@ -1,5 +1,9 @@
 //! What is asked of a run, beside its system.
 
+mod check;
+
+pub(crate) use check::is_single;
+
 use crate::dynamics::Equations;
 use crate::effects::Effects;
 use crate::handle::{CoordinateId, Subject};

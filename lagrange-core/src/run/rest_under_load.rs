@@ -6,11 +6,10 @@
 use super::Run;
 use super::hit::Hit;
 use crate::arithmetic::Scalar;
-use crate::dynamics::EvaluationError;
 use crate::integrate::taylor::worse;
 
 /// Parts of a step at which guards are looked at: no two differ by the same, so that no load has the same value at all of them by its period.
-const WITHIN: [f64; 8] = [0.06, 0.17, 0.31, 0.42, 0.57, 0.69, 0.83, 0.95];
+pub(super) const WITHIN: [f64; 8] = [0.06, 0.17, 0.31, 0.42, 0.57, 0.69, 0.83, 0.95];
 /// A step is so many times longer than the last one at most,
 const GROWTH: f64 = 2.0;
 /// and the first one this part of the span.
@@ -26,8 +25,11 @@ impl<T: Scalar> Run<T> {
             && self.now.state.v.iter().enumerate().all(rests)
     }
 
-    /// How long a step may be at rest.
+    /// How long a step may be at rest under load.
     pub(super) fn longest_at_rest(&self) -> f64 {
+        if !self.rests_under_load() {
+            return f64::INFINITY;
+        }
         match self.recorder.trajectory.work.steps {
             0 => FIRST * (self.end - self.begin),
             _ => GROWTH * self.stepper.step.h.value(),
@@ -47,18 +49,5 @@ impl<T: Scalar> Run<T> {
             Ok(()) => worst,
             Err(_) => f64::INFINITY,
         }
-    }
-
-    /// The largest defect of interpolated guards within the step.
-    ///
-    /// # Errors
-    /// The equations cannot be evaluated there.
-    pub(super) fn interpolation_defect_within(&mut self) -> Result<f64, EvaluationError> {
-        let mut worst = 0.0;
-        for part in WITHIN {
-            self.evaluate_end(part)?;
-            worst = worse(worst, self.defect_of_interpolation(part));
-        }
-        Ok(worst)
     }
 }

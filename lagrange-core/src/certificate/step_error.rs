@@ -1,0 +1,153 @@
+//! What the polynomials of a step say against the accelerations that are reported: the error of the step.
+//!
+//! Dense output of Runge–Kutta methods is of lower order than their steps, so its derivative says little. What a step promises is
+//! its end: v(end) − v(0) − ∫ a dt and q(end) − q(0) − ∫ v dt, with the reported accelerations a along the dense output, are the
+//! error of the step and h·∂a/∂q times that of the dense output. The integrals are by Gauss–Legendre quadrature. In stiff systems h·∂a/∂v is
+//! large: of the steps of Radau what counts is the part of the error that is not damped at once.
+//!
+//! Where the dense output is as good as the step, as a Taylor series is, its defects q̇ − v and v̇ − a are as small as its error. Then their
+//! absolute values at three places, by Radau's quadrature, are more than the integral of a defect that grows towards the end, and
+//! where that is below the tolerance nothing else is evaluated.
+
+use super::motion::Examination;
+use super::quadrature::{RADAU, gauss};
+use crate::arithmetic::Scalar;
+use crate::error::Error;
+use crate::integrate::{Acceleration, Radau, least_size};
+use crate::trajectory::{Segment, State};
+use nalgebra::{DMatrix, DVector};
+
+impl<T: Scalar> Examination<'_, T> {
+    /// Finds the errors of a step, and what they are measured by, from the defects of its dense output. Whether they are below the tolerance.
+    pub(super) fn has_small_defects(&mut self, segment: &Segment<T>) -> Result<bool, Error> {
+        let record = self.record;
+        let span = (segment.h * segment.end).value();
+        self.start_errors(0.0);
+        for (part, weight) in RADAU {
+            let s = segment.end * T::from_f64(part);
+            self.accelerate(segment, s)?;
+            for i in 0..self.begin.q.len() {
+                let (dq, dv) = (self.rates.q[i] / segment.h, self.rates.v[i] / segment.h);
+                let defects = [dq - self.scratch.v[i], dv - self.acceleration[i]];
+                let [q, v] = defects.map(|defect| defect.value().abs());
+                self.errors.q[i] += weight * span * q;
+                self.errors.v[i] += weight * span * v;
+            }
+        }
+        let pairs = |errors: &[f64], sizes: &[f64]| {
+            let mut pairs = errors.iter().zip(sizes).enumerate();
+            pairs.all(|(i, (error, size))| {
+                let least = least_size(&record.asked.sizes, i);
+                *error <= self.findings.tolerance * (least + size)
+            })
+        };
+        Ok(pairs(&self.errors.q, &self.sizes.q) && pairs(&self.errors.v, &self.sizes.v))
+    }
+
+    /// Finds the errors of a step, and what they are measured by, from the integrals of velocities and accelerations.
+    pub(super) fn integrate(&mut self, segment: &Segment<T>) -> Result<(), Error> {
+        let points = segment.degree / 2 + 2;
+        if self.nodes.len() != points {
+            self.nodes = gauss(points);
+        }
+        let (h, end) = (segment.h.value(), segment.end.value());
+        self.start_errors(1.0);
+        for i in 0..points {
+            let (x, w) = self.nodes[i];
+            self.accelerate(segment, T::from_f64(0.5 * end * (1.0 + x)))?;
+            let weight = 0.5 * end * h * w;
+            let rates = [
+                (&mut self.errors.q, &self.scratch.v),
+                (&mut self.errors.v, &self.acceleration),
+            ];
+            for (sums, rates) in rates {
+                let pairs = sums.iter_mut().zip(rates);
+                pairs.for_each(|(sum, rate)| *sum += weight * rate.value());
+            }
+        }
+        if segment.degree == Radau::<T>::DEGREE {
+            self.damp(segment)?;
+        }
+        Ok(())
+    }
+
+    /// Errors as they are before a step: the difference of its ends, or nothing.
+    fn start_errors(&mut self, difference: f64) {
+        let q = [&mut self.errors.q, &mut self.sizes.q];
+        let v = [&mut self.errors.v, &mut self.sizes.v];
+        let ends = [(&self.begin.q, &self.last.q), (&self.begin.v, &self.last.v)];
+        for ([errors, sizes], (begin, last)) in [q, v].into_iter().zip(ends) {
+            for i in 0..begin.len() {
+                errors[i] = difference * (begin[i] - last[i]);
+                sizes[i] = begin[i].abs().max(last[i].abs());
+            }
+        }
+    }
+
+    /// State, its derivatives and accelerations at part `s` of a step, by the equations that the run itself evaluates; remembers how large the state is.
+    pub(super) fn accelerate(&mut self, segment: &Segment<T>, s: T) -> Result<(), Error> {
+        let State { q, v, .. } = &mut self.scratch;
+        let lists = [(&mut *q, &mut self.rates.q), (&mut *v, &mut self.rates.v)];
+        for (which, (values, rates)) in lists.into_iter().enumerate() {
+            for (i, (x, rate)) in values.iter_mut().zip(rates).enumerate() {
+                let c = self.record.polynomial(segment, which, i);
+                (*x, *rate) = with_derivative(c, s);
+            }
+        }
+        let time = segment.t + segment.h * s;
+        let mode = &self.record.modes[segment.mode];
+        let outcome = if !mode.has_incipient_slip() {
+            Acceleration::acceleration(&mut self.dynamics, time, q, v, &mut self.acceleration)
+        } else {
+            let left = &self.left;
+            let outcome = self.dynamics.value_along_from(time, q, v, left);
+            self.acceleration
+                .copy_from_slice(self.dynamics.acceleration());
+            outcome
+        };
+        let d = self.record.description();
+        outcome.map_err(|e| Error::from_evaluation(e, time.value(), mode, d))?;
+        for (sizes, list) in [(&mut self.sizes.q, q), (&mut self.sizes.v, v)] {
+            let pairs = sizes.iter_mut().zip(list);
+            pairs.for_each(|(size, x)| *size = size.max(x.value().abs()));
+        }
+        Ok(())
+    }
+
+    /// What is left of the errors at the end of a step, (1 − h J)⁻¹ of them, J the Jacobian there: an error of the
+    /// dense output in a motion that is damped fast changes the accelerations by far more, but for a short time only.
+    fn damp(&mut self, segment: &Segment<T>) -> Result<(), Error> {
+        let d = self.record.description();
+        let (time, n) = (segment.t + segment.h * segment.end, self.last.q.len());
+        let State { q, v, .. } = &mut self.scratch;
+        self.record.state_at(segment, segment.end, q, v);
+        let mut columns = vec![T::zero(); 2 * n * n];
+        let outcome = self.dynamics.jacobian(time, q, v, &mut columns);
+        let mode = &self.record.modes[segment.mode];
+        outcome.map_err(|e| Error::from_evaluation(e, time.value(), mode, d))?;
+        let h = (segment.h * segment.end).value();
+        let rate = |i: usize, j: usize| match i.checked_sub(n) {
+            Some(i) => columns[j * n + i].value(),
+            None => f64::from(u8::from(j == i + n)),
+        };
+        let unit = |i: usize, j: usize| f64::from(u8::from(i == j));
+        let matrix = DMatrix::from_fn(2 * n, 2 * n, |i, j| unit(i, j) - h * rate(i, j));
+        let State { q, v, .. } = &mut self.errors;
+        let errors = DVector::from_iterator(2 * n, q.iter().chain(v.iter()).copied());
+        if let Some(left) = matrix.lu().solve(&errors) {
+            let errors = q.iter_mut().chain(v);
+            errors
+                .zip(left.iter())
+                .for_each(|(error, left)| *error = *left);
+        }
+        Ok(())
+    }
+}
+
+/// Σ cₖ sᵏ and Σ k cₖ sᵏ⁻¹.
+fn with_derivative<T: Scalar>(c: &[T], s: T) -> (T, T) {
+    let coefficients = c.iter().rev();
+    coefficients.fold((T::zero(), T::zero()), |(value, rate), &c| {
+        (value * s + c, rate * s + value)
+    })
+}

@@ -1,0 +1,196 @@
+//! One turn of the loop: a step, cut short by the first thing that happens in it, and what follows from that.
+
+use super::hit::Hit;
+use super::switch::Switcher;
+use super::{Progress, Run};
+use crate::arithmetic::{Scalar, epsilon};
+use crate::error::Error;
+use crate::modes::guard::Guard;
+use crate::trajectory::{EventKind, Subject};
+
+/// This many events without any progress in time are a livelock.
+const MOST_EVENTS_AT_ONCE: usize = 40;
+
+/// Nearer than this to a loss of rank what is left of a residual is amplified: it is taken away to the last bit.
+const NEAR: f64 = 0.7;
+
+/// Steps between two looks at rows that a step does not leave by more than rounding.
+const STEPS_OF_ROUNDING: usize = 16;
+
+/// A force this near to its limit, relative, is at it if it was.
+const AT_LIMIT: f64 = 1e-13;
+
+impl<T: Scalar> Run<T> {
+    /// One step, cut short by the first thing that happens in it.
+    pub(crate) fn advance(&mut self) -> Result<(), Error> {
+        self.make_step().map_err(|error| self.cause(error))
+    }
+
+    fn make_step(&mut self) -> Result<(), Error> {
+        self.check_whether_to_go_on()?;
+        self.watch_stiffness();
+        if self.now.valued {
+            self.dynamics.note_loads();
+        }
+        let hit = self.accepted_step()?;
+        self.check_resolution()?;
+        let end = self.take_step(&hit)?;
+        if end > 0.0 {
+            self.slips_have_begun();
+        }
+        self.meet_hit(hit, end)?;
+        self.recorder.finished |= self.has_seen_all();
+        Ok(())
+    }
+
+    /// Whether the run has neither come to a limit nor been stopped.
+    fn check_whether_to_go_on(&mut self) -> Result<(), Error> {
+        if self.recorder.trajectory.work.steps >= self.settings.max_steps {
+            return Err(self.limit("steps", self.settings.max_steps));
+        }
+        self.check_reach()?;
+        if let Some(monitor) = &self.settings.monitor {
+            let time = self.now.t.value();
+            monitor.tell(time);
+            if monitor.is_stopped() {
+                return Err(Error::Interrupted { time });
+            }
+        }
+        Ok(())
+    }
+
+    /// Moves the state to the end of the step at hand, up to what ends it, and writes that down. The part of the step up to there.
+    fn take_step(&mut self, hit: &Hit) -> Result<f64, Error> {
+        let mut end = hit.end();
+        let mut exact = self.exact_end(hit);
+        self.refuse_hidden_corners(end)?;
+        let refused = self.friction_that_pushes(end);
+        if let Some((first, _)) = &refused {
+            (end, exact) = (*first, T::from_f64(*first));
+        }
+        if end > 0.0 {
+            // The step left there the state at its end, evaluated.
+            core::mem::swap(&mut self.now.state, &mut self.stepper.scratch);
+            (self.now.valued, self.now.series) = (self.locator.rests.is_empty(), Progress::None);
+        }
+        self.log_marks(end);
+        self.remember_sides(end);
+        self.remember_regions(end);
+        self.locator.polynomials.raise(end);
+        let aside = self.dynamics.holds_rows_aside();
+        let trajectory = &mut self.recorder.trajectory;
+        trajectory.push(&self.stepper.step, exact, aside);
+        self.recorder.trajectory.work.steps += 1;
+        if end > 0.0 {
+            let whole = end == 1.0;
+            self.now.t = self.stepper.step.t + self.stepper.step.h * exact;
+            if whole && self.is_spent(self.end - self.now.t.value()) {
+                self.now.t = T::from_f64(self.end);
+            }
+            // Time may be too coarse for the step.
+            let (before, now) = (self.stepper.step.t.value(), self.now.t.value());
+            if now - before > 2.0 * epsilon::<T>() * now.abs() {
+                self.switcher.stuck.clear();
+            }
+            if let Some((_, error)) = refused {
+                return Err(error);
+            }
+            self.forget_zeros();
+            let steps = self.recorder.trajectory.work.steps;
+            let stays = self.stepper.is_taylor() && !self.now.drifts;
+            // What is left of a residual makes rows seem independent that are not.
+            let near = self.now.distance < NEAR || self.dynamics.has_rows_aside();
+            let projects = near || !stays || steps.is_multiple_of(STEPS_OF_ROUNDING);
+            if projects && !self.is_undecided() {
+                self.project(near)?;
+            }
+        }
+        Ok(end)
+    }
+
+    /// Goes on with what has ended the step at part `end` of it.
+    fn meet_hit(&mut self, hit: Hit, end: f64) -> Result<(), Error> {
+        match hit {
+            Hit::Nothing | Hit::Turned(_) => {
+                if self.slips_come_to_rest(end) {
+                    self.count_switch()?;
+                    self.leave_stiffness();
+                    self.switch()?;
+                }
+            }
+            Hit::Stop(stop, _) => {
+                if !self.now.valued {
+                    self.evaluate()?;
+                }
+                self.finish(stop);
+            }
+            Hit::Guards(_) => {
+                if !self.only_creeps(end)? {
+                    self.count_switch()?;
+                    if !self.only_shares_otherwise()? {
+                        self.leave_stiffness();
+                        self.switch()?;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// What began at zero with the last step is an ordinary guard in the next, but for a force that is still at its limit to
+    /// rounding, or to what errors make of the directions of slips: a block that is just held, a contact that carries nothing. Its size is the
+    /// largest so far, for there may be nothing at an instant.
+    fn forget_zeros(&mut self) {
+        let gap = |(guard, _): &(Guard, usize)| matches!(guard, Guard::Gap(_));
+        self.locator.opened = self.locator.zeros.iter().any(gap);
+        self.locator.zeros.clear();
+        let at_limit = &mut self.switcher.decider.decision.at_limit;
+        self.locator.at_limit.append(at_limit);
+        if self.locator.at_limit.is_empty() {
+            return;
+        }
+        self.locator.blur = self.error_of_directions();
+        let Switcher { decider, .. } = &mut self.switcher;
+        let limit = AT_LIMIT.max(self.locator.blur);
+        self.locator.at_limit.retain_mut(|(guard, size)| {
+            let (value, now) = decider.force(&mut self.dynamics, &self.now.mode, *guard);
+            *size = size.max(now);
+            self.now.valued && value.abs() <= limit * *size
+        });
+    }
+
+    /// Counts a switch; too many at one time, or in all, end the run.
+    fn count_switch(&mut self) -> Result<(), Error> {
+        let events = self.recorder.events_before + self.recorder.trajectory.events.len();
+        if events >= self.settings.max_events {
+            return Err(self.limit("events", self.settings.max_events));
+        }
+        self.switcher.stuck.push(&self.now.mode);
+        if self.switcher.stuck.len() < MOST_EVENTS_AT_ONCE {
+            return Ok(());
+        }
+        let d = self.description();
+        let last = self.switcher.stuck.iter().rev().take(4).rev();
+        Err(Error::NoProgress {
+            time: self.now.t.value(),
+            modes: last.map(|m| m.display(d).to_string()).collect(),
+            item: self
+                .recorder
+                .trajectory
+                .events
+                .last()
+                .map_or(d.name, |e| e.subject.name(d)),
+        })
+    }
+
+    /// Ends the run at a stop.
+    pub(super) fn finish(&mut self, stop: usize) {
+        self.log_here(Subject::Stop(stop), EventKind::Stop);
+        self.recorder.finished = true;
+    }
+
+    /// Whether the time that a step leaves of the run is rounding.
+    pub(super) fn is_spent(&self, rest: f64) -> bool {
+        rest.abs() <= 4.5 * epsilon::<T>() * self.end.abs().max(self.stepper.step.h.value())
+    }
+}

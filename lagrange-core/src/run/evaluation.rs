@@ -1,0 +1,109 @@
+//! What the dynamics hold of the present state and mode: values, series, and the numbers that guards read.
+
+use super::{Progress, Run};
+use crate::arithmetic::Scalar;
+use crate::dynamics::EvaluationError;
+use crate::error::Error;
+use crate::trajectory::State;
+
+impl<T: Scalar> Run<T> {
+    pub(super) fn evaluate(&mut self) -> Result<(), Error> {
+        let outcome = self
+            .dynamics
+            .value(self.now.t, &self.now.state.q, &self.now.state.v);
+        outcome.map_err(|e| self.error(e))?;
+        self.now.valued = true;
+        Ok(())
+    }
+
+    /// Values at the present state in the present mode, with every row's Jacobian and rate.
+    pub(super) fn evaluate_all_rows(&mut self) -> Result<(), Error> {
+        self.ask_for_all_rows();
+        self.evaluate()?;
+        self.now.valued = false;
+        Ok(())
+    }
+
+    /// The numbers of all rows at the present state; the mode is the one that `dynamics` is in.
+    pub(super) fn tape_of_all_rows(&mut self) {
+        self.ask_for_all_rows();
+        let State { q, v, .. } = &self.now.state;
+        self.dynamics.tape(self.now.t, q, v);
+    }
+
+    /// At least the leading coefficients at the present state.
+    pub(super) fn begin_series(&mut self) -> Result<(), EvaluationError> {
+        if self.now.series == Progress::None {
+            self.dynamics.hold_rows_aside(false);
+            let State { q, v, .. } = &self.now.state;
+            let rest = self
+                .dynamics
+                .begin_series(self.now.t, q, v, self.stepper.order)?;
+            self.dynamics.hold_rows_aside(!self.is_undecided());
+            self.now.series = if rest {
+                Progress::Begun
+            } else {
+                Progress::Complete
+            };
+        }
+        Ok(())
+    }
+
+    /// Taylor series at the present state, unless they are there.
+    pub(super) fn expand(&mut self) -> Result<(), Error> {
+        self.begin_series().map_err(|e| self.error(e))?;
+        if self.now.series == Progress::Begun {
+            self.dynamics.end_series(self.stepper.order);
+            self.now.series = Progress::Complete;
+        }
+        Ok(())
+    }
+
+    /// Asks for the numbers that the guards of the mode read.
+    pub(super) fn ask_for_guards(&mut self) {
+        let watched = self.switcher.table.of(&self.dynamics);
+        // The rank is read from the rows.
+        if self.rank.watches() && !self.dynamics.gives_rows() {
+            self.dynamics.set_extra_needs(&watched.needs);
+        } else {
+            self.dynamics.set_guard_needs(&watched.needs);
+        }
+    }
+
+    /// Asks for the numbers of all rows, whether or not the mode reads them.
+    pub(super) fn ask_for_all_rows(&mut self) {
+        self.dynamics.set_extra_needs(&self.switcher.status.needs);
+    }
+
+    /// Enters the mode that the decider has found.
+    pub(super) fn set_mode_decided(&mut self) {
+        self.locator.at_limit.clear();
+        self.locator.blur = 0.0;
+        self.locator.opened = false;
+        self.now
+            .mode
+            .clone_from(&self.switcher.decider.decision.mode);
+        self.recorder.trajectory.enter(&self.now.mode);
+        self.locator
+            .polynomials
+            .composites
+            .clone_from(&self.switcher.decider.decision.composites);
+        self.locator
+            .polynomials
+            .held
+            .clone_from(&self.switcher.decider.decision.held);
+        self.now.outdate();
+        self.hold_guards();
+    }
+
+    /// Holds what the guards of the mode, which `dynamics` is in, need.
+    pub(super) fn hold_guards(&mut self) {
+        self.ask_for_guards();
+        let watched = self.switcher.table.of(&self.dynamics);
+        self.now.drifts = watched.drifts;
+        let guards = watched.guards.iter().copied();
+        self.locator
+            .polynomials
+            .arm(guards, &self.now.mode, &self.dynamics);
+    }
+}

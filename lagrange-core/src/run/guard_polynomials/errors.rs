@@ -1,0 +1,146 @@
+//! How far the polynomials of the guards are off in a step, and how far they may be.
+
+use super::GuardPolynomials;
+use crate::arithmetic::{self, Scalar};
+use crate::dynamics::Dynamics;
+use crate::integrate::polynomial_value as at;
+use crate::integrate::taylor::worse;
+use crate::mode::Mode;
+use crate::modes::guard::Guard;
+
+/// A guard on the other side of zero than its polynomial is off by more than rounding explains: this much more is counted.
+const OTHER_SIDE: f64 = 1e3;
+
+/// So much a guard of size 1 is off by rounding; see [`rounding`].
+pub(super) const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+impl GuardPolynomials {
+    /// How far the polynomials are off at part `s` of the step, in units of what is allowed by the tolerance and, of forces, by their blur;
+    /// `dynamics` holds the values of the state there, `known` tells of a guard whether this is its root, and how large what makes it is at least.
+    ///
+    /// The step is chosen for the coordinates, but a guard is a function of them whose series may converge no further than
+    /// a part of it: in free flight the coordinates are polynomials, the distance √(x² + y²) is not. Where the flight passes
+    /// through 0 even a series that has ended, and looks exact, goes on along the wrong branch.
+    #[inline(never)]
+    pub(in crate::run) fn defect<T: Scalar>(
+        &self,
+        dynamics: &mut Dynamics<T>,
+        mode: &Mode,
+        s: f64,
+        [tolerance, blur]: [f64; 2],
+        known: impl Fn(Guard) -> (bool, f64),
+    ) -> f64 {
+        let mut worst = 0.0;
+        self.errors(
+            dynamics,
+            mode,
+            s,
+            [tolerance, blur],
+            known,
+            |error, allowed, rounding, other_side| {
+                let mut ratio = error / (allowed + rounding);
+                if other_side && error > rounding {
+                    ratio *= OTHER_SIDE;
+                }
+                worst = worse(worst, ratio);
+            },
+        );
+        worst
+    }
+
+    /// The same without what rounding explains: a guard that is a small difference of large numbers is off by as much however short
+    /// the step.
+    pub(in crate::run) fn truncation<T: Scalar>(
+        &self,
+        dynamics: &mut Dynamics<T>,
+        mode: &Mode,
+        s: f64,
+        tolerance: f64,
+        known: impl Fn(Guard) -> (bool, f64),
+    ) -> f64 {
+        let mut worst = 0.0_f64;
+        self.errors(
+            dynamics,
+            mode,
+            s,
+            [tolerance, 0.0],
+            known,
+            |error, allowed, rounding, _| worst = worst.max((error - rounding) / allowed),
+        );
+        worst
+    }
+
+    /// Tells the error of every polynomial at part `s` of the step, what is allowed but for rounding, what rounding makes, and whether the guard
+    /// is on the other side of zero.
+    #[inline(always)]
+    fn errors<T: Scalar>(
+        &self,
+        dynamics: &mut Dynamics<T>,
+        mode: &Mode,
+        s: f64,
+        [tolerance, blur]: [f64; 2],
+        known: impl Fn(Guard) -> (bool, f64),
+        mut tell: impl FnMut(f64, f64, f64, bool),
+    ) {
+        if !self.watches.is_empty() {
+            dynamics.report_value();
+        }
+        for (index, (curve, c)) in (self.list.iter())
+            .zip(self.coefficients.chunks_exact(self.width))
+            .enumerate()
+        {
+            let (located, least) = known(curve.guard);
+            let blur = if curve.guard.is_force() { blur } else { 0.0 };
+            let allowed = allowance::<T>(curve.guard, tolerance, located).max(blur);
+            let value = self.value(index, mode, dynamics);
+            let found = if s == 1.0 { curve.sums.end } else { at(c, s) };
+            let size = size(value, c).max(least);
+            let other_side = !located && (found < 0.0) != (value < 0.0);
+            let error = (found - value).abs();
+            let rounding = rounding(error, curve.guard, dynamics);
+            tell(error, allowed * size, rounding, other_side);
+        }
+    }
+}
+
+/// What rounding makes of a guard at the last value of `dynamics`, to be told from an `error`. Gaps and slips are differences of positions and of
+/// velocities, which may be large: those of two satellites on a rope, from the centre of the Earth. What is watched, and where branches change, may be
+/// made of all of them.
+#[inline]
+pub(in crate::run) fn rounding<T: Scalar>(error: f64, guard: Guard, dynamics: &Dynamics<T>) -> f64 {
+    let least = arithmetic::rounding::<T>(ROUNDING);
+    if error <= least {
+        return least;
+    }
+    let state = dynamics.time_and_state();
+    let n = state.len() / 2;
+    let terms = match guard {
+        Guard::Gap(_) => &state[1..=n],
+        Guard::Slip(_) => &state[1 + n..],
+        Guard::Stop(..) | Guard::Mark(..) | Guard::Branch(_) => state,
+        _ => return least,
+    };
+    let larger = |size: f64, x: &T| size.max(x.value().abs());
+    least * terms.iter().fold(1.0, larger)
+}
+
+/// The size of a guard with this value and these coefficients. Not all of them: where the series has stopped converging they are large and cancel.
+#[inline]
+pub(super) fn size(value: f64, c: &[f64]) -> f64 {
+    value.abs() + (c[0].abs() + c[1].abs())
+}
+
+/// Error that a guard of size 1 may have at the end of a step.
+///
+/// Forces are second derivatives, and the worse for it. Where a guard has been located it has to be exact, else it only must not
+/// be missed.
+#[inline]
+pub(super) fn allowance<T: Scalar>(guard: Guard, tolerance: f64, located: bool) -> f64 {
+    let (share, floor) = match (guard.is_force(), located) {
+        (true, true) => (10.0, 1e-12),
+        (true, false) => (1e4, 1e-10),
+        (false, true) => (0.1, 1e-14),
+        (false, false) => (10.0, 1e-13),
+    };
+    (share * tolerance).max(arithmetic::rounding::<T>(floor))
+}

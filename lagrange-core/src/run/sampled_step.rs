@@ -1,0 +1,183 @@
+//! A step by another method than Taylor's, whose guards are known by samples.
+
+use super::hit::Hit;
+use super::{Progress, Run};
+use crate::arithmetic::Scalar;
+use crate::error::Error;
+use crate::integrate::Integrator;
+use crate::trajectory::State;
+
+/// So many times a step is made shorter because the interpolation of its guards does not hold.
+const MOST_TRIES: usize = 10;
+
+/// What exponents may rise by in a step of other methods than Taylor's, as an order.
+const SLOW_ORDER: usize = 4;
+
+/// A step that is made again to end at a hit ends so much later, as a share of it, to see it once more; and then once more so near that what
+/// lies before the end of a step is as good as the end.
+const PAST: [f64; 2] = [1e-3, 1e-6];
+
+/// A step in which an interpolation vanishes and its guard does not is made shorter by this factor.
+const NO_ROOT: f64 = 0.5;
+
+/// Steps of so many times the resolution of time are left to Taylor series.
+const KINK: f64 = 1e4;
+
+impl<T: Scalar> Run<T> {
+    /// Makes a step by the method from the present state and finds what happens first in it; by Taylor series where that is beyond the method.
+    pub(super) fn sampled_step(&mut self) -> Result<Hit, Error> {
+        if self.now.series == Progress::Begun {
+            // What it begins with does not stay.
+            self.now.series = Progress::None;
+        }
+        if self.dynamics.has_rows_aside() {
+            self.dynamics.hold_rows_aside(false);
+            self.evaluate()?;
+            self.dynamics.hold_rows_aside(!self.is_undecided());
+        }
+        if self.flies_low() {
+            return self.taylor_step();
+        }
+        let longest = self.end - self.now.t.value();
+        let Some(method) = &mut self.stepper.other else {
+            return Ok(Hit::Nothing);
+        };
+        let (q, v) = (&self.now.state.q, &self.now.state.v);
+        let first = match self.stepper.wanted {
+            Some(h) => Ok(h),
+            None => method.first_step(
+                &mut self.dynamics,
+                self.now.t,
+                q,
+                v,
+                longest,
+                self.settings.per_step(),
+            ),
+        };
+        if let Ok(h) = first
+            && self.slip_may_vanish(h)
+        {
+            return self.taylor_step();
+        }
+        let mut h = first.map_err(|e| self.no_step(e))?.min(longest);
+        h = h.min(self.longest_at_rest());
+        if self.switcher.redundant.has_open() && self.expand().is_ok() {
+            h = h.min(self.longest_of_shared_loads(self.stepper.order));
+        }
+        let shortest = KINK * self.resolution(h);
+        let (mut tries, mut shortened) = (0, 0);
+        while tries < MOST_TRIES {
+            if h <= shortest && self.locator.polynomials.get(0).is_some() {
+                break;
+            }
+            let next = self.integrate(h)?;
+            if let Some(step) = self.loses_motion() {
+                return Err(self.step_too_large(step));
+            }
+            if self.passes_close() {
+                break;
+            }
+            if let Some(shorter) = self.hides(1.0, SLOW_ORDER, shortened) {
+                shortened += 1;
+                self.recorder.trajectory.work.rejected += 1;
+                h = shorter;
+                continue;
+            }
+            self.sample()?;
+            let defect = self.interpolation_defect().map_err(|e| self.error(e))?;
+            h = self.stretch(defect) * self.stepper.step.h.value();
+            self.stepper.wanted = Some(next.min(h));
+            if defect <= 1.0 {
+                if let Some(hit) = self.hit_among_samples()? {
+                    return Ok(hit);
+                }
+                h = NO_ROOT * self.stepper.step.h.value();
+            }
+            self.recorder.trajectory.work.rejected += 1;
+            tries += 1;
+        }
+        // Where a guard has a kink no interpolation holds; where constraints lose rank no step does.
+        self.stepper.wanted = None;
+        self.taylor_step()
+    }
+
+    /// One step of a method other than Taylor's, of at most `h`; the step that it would like to take next.
+    fn integrate(&mut self, h: f64) -> Result<f64, Error> {
+        let Some(method) = &mut self.stepper.other else {
+            return Ok(h);
+        };
+        let (q, v) = (&self.now.state.q, &self.now.state.v);
+        let (dynamics, step) = (&mut self.dynamics, &mut self.stepper.step);
+        match method.step(
+            dynamics,
+            self.now.t,
+            q,
+            v,
+            h,
+            self.settings.per_step(),
+            step,
+        ) {
+            Ok(accepted) => {
+                self.recorder.trajectory.work.rejected += accepted.rejected;
+                Ok(accepted.h_next)
+            }
+            Err(error) => Err(self.no_step(error)),
+        }
+    }
+
+    /// Samples the guards along the step.
+    fn sample(&mut self) -> Result<(), Error> {
+        let State { q, v, .. } = &mut self.stepper.scratch;
+        let (curves, dynamics) = (&mut self.locator.polynomials, &mut self.dynamics);
+        let sampled = curves.sample(dynamics, &self.now.mode, &self.stepper.step, q, v);
+        sampled.map_err(|e| self.error(e))
+    }
+
+    /// What happens first in a step whose guards were sampled; nothing where it is a guard that does not vanish there: its interpolation
+    /// does, between samples that are all much farther from zero.
+    fn hit_among_samples(&mut self) -> Result<Option<Hit>, Error> {
+        let (mut corrections, mut closer, mut turned) = (0, PAST.iter(), false);
+        loop {
+            self.sharpen_roots();
+            let hit = self.first_hit();
+            // What happens close to the start is for a method that can make any step.
+            if hit.end() == 0.0 || self.hides_a_start() {
+                return self.taylor_step().map(Some);
+            }
+            self.evaluate_end(hit.end()).map_err(|e| self.error(e))?;
+            let false_mark = self.misses_a_mark(hit.end());
+            if false_mark.map_err(|e| self.error(e))? || self.misses_its_root(&hit) {
+                return Ok(None);
+            }
+            self.now.distance = self.rank.distance(&self.dynamics);
+            if !self.corrects_composites(&hit, hit.end(), &mut corrections) {
+                // What happens, and what only just does or does not, is as exact as the ends of steps are.
+                let method = self.stepper.other.as_deref();
+                let best = method.is_some_and(Integrator::is_best_at_end);
+                let turn = if best && !turned {
+                    self.locator.polynomials.first_turn(hit.end())
+                } else {
+                    None
+                };
+                let part = match turn {
+                    Some(turn) => {
+                        turned = true;
+                        turn
+                    }
+                    None if best => closer.next().map_or(1.0, |past| hit.end() * (1.0 + past)),
+                    None => 1.0,
+                };
+                if part >= 1.0 {
+                    self.stepper.breaks = 0;
+                    return Ok(Some(hit));
+                }
+                let h = part * self.stepper.step.h.value();
+                if h <= KINK * self.resolution(h) {
+                    return self.taylor_step().map(Some);
+                }
+                self.integrate(h)?;
+            }
+            self.sample()?;
+        }
+    }
+}

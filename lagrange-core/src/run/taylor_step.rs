@@ -1,0 +1,394 @@
+//! A step by Taylor series: polynomials of the motion and of all guards, checked against an independent evaluation.
+
+use super::Run;
+use super::hit::Hit;
+use super::singular::{LEAST_DEGREE, MOST_RETREATS, RETREAT, UNDECIDED};
+use super::stepping::{JUST_BEFORE, Stepper};
+use crate::arithmetic::Scalar;
+use crate::arithmetic::quad::{Quad, QuadBody, side_by_side};
+use crate::dynamics::Dynamics;
+use crate::error::Error;
+use crate::integrate::taylor::{self, Verdict};
+use crate::integrate::{horner, onto_step, polynomial_derivative, powers_of};
+use crate::modes::guard::Guard;
+use crate::trajectory::State;
+
+/// How far beyond a hit its gap is looked at, in units of the tolerance.
+const BEYOND: f64 = 10.0;
+
+/// Where rounding hides how a guard begins, the step is made shorter by this.
+const CLOSER_LOOK: f64 = 0.1;
+
+/// But not beyond this share of the step that the motion allows (close to time 0 its resolution is no limit).
+const CLOSEST: f64 = 1e-20;
+
+/// Coefficients that are left out at once where those of a guard are no numbers.
+const LOWER: usize = 4;
+
+/// So many breaks of guards in a row are no instants that can be passed: a slip that fades has more than a thousand before it rests.
+const MOST_BREAKS: usize = 100_000;
+
+/// Where directions of slips are off by more than this share,
+const ASTRAY: f64 = 1e-2;
+
+/// steps are shorter by this factor: their errors are then some hundredth of those allowed.
+const MORE_EXACTLY: f64 = 0.75;
+
+impl<T: Scalar> Run<T> {
+    /// Makes a step by Taylor series from the present state and finds what happens first in it.
+    pub(super) fn taylor_step(&mut self) -> Result<Hit, Error> {
+        self.expand()?;
+        let (moves, mut order) = self.longest_step()?;
+        let rests = self.rests_under_load();
+        let mut h = self.stepper.guarded.map_or(moves, |h| h.min(moves));
+        let mut guarded = h < moves;
+        let mut closer = 0;
+        let (mut corrections, mut shortened) = (0, 0);
+        let mut jumps = false;
+        loop {
+            self.write_polynomial(h, order);
+            if !self.advances(h) {
+                return match self.slips_rest_at_once() {
+                    true => Ok(Hit::Guards(0.0)),
+                    false => Err(self.step_too_small(h)),
+                };
+            }
+            self.locator.polynomials.take_series(
+                &self.dynamics,
+                &self.now.mode,
+                &self.stepper.powers[..=order],
+            );
+            let shorter = CLOSER_LOOK * h;
+            let resolved = self.advances(shorter) && shorter > CLOSEST * moves;
+            let whole = self.nothing_happens();
+            let mut lowered = 0;
+            let hit = if whole {
+                self.locator.fallen.clear();
+                self.locator.rests.clear();
+                Hit::Nothing
+            } else if resolved && self.hides_a_start() {
+                h = shorter;
+                continue;
+            } else {
+                lowered = self.locator.polynomials.lowered();
+                self.first_hit()
+            };
+            let end = hit.end();
+            if end == 0.0 {
+                if self.corrects_composites_at_start(&hit, &mut corrections) {
+                    continue;
+                }
+                match hit {
+                    // A slip that is all error begins below zero, and goes on there.
+                    Hit::Turned(_) if self.locator.polynomials.lowered() > lowered => continue,
+                    // It would be found again.
+                    Hit::Turned(_) => return Err(self.step_too_small(h)),
+                    hit => return Ok(hit),
+                }
+            }
+            // Evaluated here, the end of the step also serves the event log. A slip that vanishes there has no direction.
+            let looked = if self.locator.rests.is_empty() {
+                end
+            } else {
+                JUST_BEFORE * end
+            };
+            if let Some(shorter) = self.hides(looked, order, shortened) {
+                shortened += 1;
+                h = shorter;
+                continue;
+            }
+            let turns = self.gap_that_turns(&hit, moves / h);
+            if !whole {
+                self.state_at_end(looked);
+            }
+            let (motion, guards) = match self.evaluate_scratch(looked) {
+                Ok(()) => (
+                    self.motion_defect(whole, looked),
+                    self.guard_defect(&hit, looked),
+                ),
+                Err(_) => (f64::INFINITY, f64::INFINITY),
+            };
+            let guards = match rests {
+                true => taylor::worse(guards, self.guard_defect_within(&hit, looked)),
+                false => guards,
+            };
+            // A step must not end where the constraints lose rank.
+            let distance = self.rank.distance(&self.dynamics);
+            if self.ends_close(distance) && closer < MOST_RETREATS {
+                if let Some(hit) = self.leap(h) {
+                    return Ok(hit);
+                }
+                closer += 1;
+                self.recorder.trajectory.work.rejected += 1;
+                h *= RETREAT;
+                continue;
+            }
+            // Of accelerations that jump, at the cut of an `atan2` or a kink that is no branch, a step may take in the last moment only, and
+            // what they change there counts whole.
+            jumps |= motion > 1.0 && self.accelerations_jump(looked, distance);
+            let motion = match jumps {
+                true => motion * (order + 1) as f64,
+                false => motion,
+            };
+            let defect = taylor::worse(motion, guards);
+            let control = &mut self.stepper.control;
+            // The polynomial is as good at its root however long the step: the next try ends before it.
+            match control.judge(h * end, defect, order, jumps) {
+                Verdict::Accept => {
+                    if self.corrects_composites(&hit, looked, &mut corrections) {
+                        continue;
+                    }
+                    if let Some(item) = turns {
+                        let time = self.stepper.step.time(T::from_f64(end)).value();
+                        return Err(Error::Undirected { time, item });
+                    }
+                    self.now.distance = distance;
+                    self.stepper.breaks = 0;
+                    self.stepper.guarded = guarded.then(|| {
+                        let truncation = self.guard_truncation(&hit, looked);
+                        h * looked * taylor::stretch(guards.min(truncation), order)
+                    });
+                    if looked != end {
+                        self.state_at_end(end);
+                    }
+                    return Ok(hit);
+                }
+                Verdict::Redo { h: smaller } => {
+                    self.recorder.trajectory.work.rejected += 1;
+                    if let Some(lower) = self.order_of_guards(order) {
+                        order = lower;
+                        h = h.min(self.step_of(order).unwrap_or(smaller));
+                        continue;
+                    }
+                    guarded |= motion <= 1.0;
+                    if motion <= 1.0 && smaller <= self.resolution(moves) {
+                        if self.locator.rests.is_empty() {
+                            return self.pass_break();
+                        }
+                        // What is left of the slip has no direction.
+                        (self.now.distance, self.stepper.guarded) = (distance, None);
+                        self.state_at_end(end);
+                        return Ok(hit);
+                    }
+                    h = smaller;
+                }
+            }
+        }
+    }
+
+    /// The step that the motion allows by the series at hand, and the order up to which that is used.
+    fn longest_step(&mut self) -> Result<(f64, usize), Error> {
+        let (series, order) = self
+            .longest_series()
+            .ok_or_else(|| self.not_finite("a Taylor coefficient"))?;
+        // Errors of the size that is allowed would be all that is left of a slip whose direction is stiff.
+        let moves = match self.stepper.astray > ASTRAY {
+            true => MORE_EXACTLY * series,
+            false => series,
+        };
+        let longest = (self.end - self.now.t.value()).min(self.longest_at_rest());
+        let moves = moves.min(longest).min(self.longest_of_shared_loads(order));
+        Ok((moves, order))
+    }
+
+    /// The step that the series at hand allows, and the order up to which it is used: close to where a slip vanishes that turns, the last
+    /// coefficients are beyond all numbers.
+    fn longest_series(&self) -> Option<(f64, usize)> {
+        let highest = self.stepper.order;
+        let mut orders = (LEAST_DEGREE.min(highest)..=highest).rev();
+        orders.find_map(|order| Some((self.step_of(order)?, order)))
+    }
+
+    /// The step that the series at hand allows, used up to this order.
+    fn step_of(&self, order: usize) -> Option<f64> {
+        let (series, tolerance) = (self.dynamics.state_series(), self.settings.per_step());
+        taylor::step_size(series, order, tolerance)
+    }
+
+    /// A lower order, if coefficients of a guard are beyond all numbers where those of the motion are not, as those of forces of 1e300 N.
+    fn order_of_guards(&self, order: usize) -> Option<usize> {
+        let lower = order.saturating_sub(LOWER).max(LEAST_DEGREE);
+        let without = lower < order && self.locator.polynomials.without_series().is_some();
+        without.then_some(lower)
+    }
+
+    /// Passes an instant at which a guard breaks off (the cut of `atan2`, a kink) by the step at hand, the shortest that time
+    /// resolves: nothing is located in it, and the next step begins on the side on which the guards then are.
+    ///
+    /// # Errors
+    /// Beyond the break a guard is no number, or a gap or the guard of a branch has jumped below zero; or there is one break
+    /// after the other.
+    fn pass_break(&mut self) -> Result<Hit, Error> {
+        self.stepper.breaks += 1;
+        if self.stepper.breaks > MOST_BREAKS {
+            return Err(self.breaks_on());
+        }
+        self.evaluate_end(1.0).map_err(|e| self.error(e))?;
+        let (curves, dynamics) = (&mut self.locator.polynomials, &mut self.dynamics);
+        if let Some((guard, before, after)) = curves.hold(dynamics, &self.now.mode) {
+            let d = self.description();
+            let item = guard.name(d).unwrap_or(d.name);
+            return Err(if after.is_nan() {
+                self.not_finite(&format!("the guard of `{item}`"))
+            } else {
+                Error::Discontinuous {
+                    time: self.now.t.value(),
+                    item,
+                    before,
+                    after,
+                }
+            });
+        }
+        self.locator.fallen.clear();
+        self.locator.rests.clear();
+        self.now.distance = self.rank.distance(&self.dynamics);
+        Ok(Hit::Nothing)
+    }
+
+    /// What is wrong with guards that bound step after step.
+    fn breaks_on(&self) -> Error {
+        match self.locator.polynomials.without_series() {
+            Some(guard) => {
+                let d = self.description();
+                let item = guard.name(d).unwrap_or(d.name);
+                self.not_finite(&format!("a Taylor coefficient of the guard of `{item}`"))
+            }
+            None => self.step_too_small(self.resolution(0.0)),
+        }
+    }
+
+    /// How far the motion is off at part `looked` of the step, the end of it if it is a `whole` one, in units of what is allowed.
+    fn motion_defect(&self, whole: bool, looked: f64) -> f64 {
+        let (step, accelerations) = (&self.stepper.step, self.dynamics.acceleration());
+        if whole {
+            taylor::defect_at_end(
+                step,
+                &self.stepper.slopes,
+                accelerations,
+                self.settings.per_step(),
+            )
+        } else {
+            taylor::defect(step, looked, accelerations, self.settings.per_step())
+        }
+    }
+
+    /// Whether accelerations jump up to part `looked` of the step, so far from a loss of rank.
+    fn accelerations_jump(&mut self, looked: f64, distance: f64) -> bool {
+        /// What is larger than this, relative, is not rounding.
+        const JUMP: f64 = 1e-5;
+        self.may_jump && !self.is_undecided() && distance >= UNDECIDED && {
+            let rounding = JUMP + self.blur_of_directions();
+            let accelerations = self.dynamics.acceleration();
+            taylor::differs(&self.stepper.step, looked, accelerations, rounding)
+        }
+    }
+
+    /// The same of the guards.
+    pub(super) fn guard_defect(&mut self, hit: &Hit, looked: f64) -> f64 {
+        let defect = self.guard_defect_beyond(0.0, hit, looked);
+        if defect <= 1.0 {
+            return defect;
+        }
+        let blur = self.blur_of_directions().max(self.locator.blur);
+        match blur {
+            0.0 => defect,
+            blur => self.guard_defect_beyond(blur, hit, looked),
+        }
+    }
+
+    /// The same where forces are known to within `blur` only, relative; of those at their limit, relative to what makes them.
+    fn guard_defect_beyond(&mut self, blur: f64, hit: &Hit, looked: f64) -> f64 {
+        let tolerance = self.settings.tolerance;
+        self.locator.polynomials.defect(
+            &mut self.dynamics,
+            &self.now.mode,
+            looked,
+            [tolerance, blur],
+            self.locator.known(hit),
+        )
+    }
+
+    /// The same as far as a shorter step makes it smaller.
+    fn guard_truncation(&mut self, hit: &Hit, looked: f64) -> f64 {
+        self.locator.polynomials.truncation(
+            &mut self.dynamics,
+            &self.now.mode,
+            looked,
+            self.settings.tolerance,
+            self.locator.known(hit),
+        )
+    }
+
+    /// The contact that is hit by its polynomial but whose gap rises beyond, as far as the motion is known there, up to part `known` of the
+    /// step: a distance √(x² + y²), which has no direction where it vanishes.
+    ///
+    /// Positions are known to the tolerance, so that is what is looked at beyond the hit.
+    fn gap_that_turns(&mut self, hit: &Hit, known: f64) -> Option<&'static str> {
+        let Hit::Guards(end) = *hit else {
+            return None;
+        };
+        for k in 0..self.locator.fallen.len() {
+            let guard = self.locator.fallen[k];
+            let Guard::Gap(contact) = guard else {
+                continue;
+            };
+            self.state_at_end(end);
+            let index = self.locator.polynomials.index_of(guard)?;
+            let (_, curve) = self.locator.polynomials.get(index)?;
+            let q = self.stepper.scratch.q.iter();
+            let size = q.fold(1.0_f64, |size, q| size.max(q.value().abs()));
+            let depth = BEYOND * self.settings.tolerance.max(1e-13) * size;
+            let beyond = end + depth / polynomial_derivative(curve, end).abs();
+            let fallen = horner(curve, beyond);
+            if beyond > known || fallen > -0.5 * depth {
+                continue;
+            }
+            self.state_at_end(beyond);
+            let State { q, v, .. } = &self.stepper.scratch;
+            let time = self.stepper.step.time(T::from_f64(beyond));
+            self.dynamics.tape(time, q, v);
+            let curves = &self.locator.polynomials;
+            let gap = curves.value(index, &self.now.mode, &self.dynamics);
+            // A distance is then what its polynomial is, of the other sign; where the series of a gap has stopped converging it is something else.
+            if gap > 0.5 * depth && (gap + fallen).abs() < 0.5 * depth {
+                return Some(self.description().contacts[contact].name);
+            }
+        }
+        None
+    }
+
+    /// Scales the series, up to `degree`, onto a step of length `h`; the state at its end is left in `scratch`, the changes of
+    /// the velocities per step there in `slopes`.
+    #[inline(never)]
+    pub(super) fn write_polynomial(&mut self, h: f64, degree: usize) {
+        self.stepper.step.set_degree(degree);
+        self.stepper.step.t = self.now.t;
+        self.stepper.step.h = T::from_f64(h);
+        side_by_side::<OntoStep, _>((&self.dynamics, &mut self.stepper));
+    }
+}
+
+/// Writes the series that `dynamics` holds onto the step, the state at its end and the changes of the velocities.
+struct OntoStep;
+
+impl<T: Scalar> QuadBody<(&Dynamics<T>, &mut Stepper<T>)> for OntoStep {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<Q: Quad>(quad: Q, (dynamics, stepper): (&Dynamics<T>, &mut Stepper<T>)) {
+        let Stepper {
+            step,
+            powers,
+            scratch,
+            slopes,
+            ..
+        } = stepper;
+        powers_of(quad, step.h.value(), step.degree, powers);
+        let [positions, velocities] = dynamics.state_series();
+        for (i, (q, v)) in positions.iter().zip(velocities).enumerate() {
+            let (onto_q, onto_v) = step.rows_mut(i);
+            (scratch.q[i], _) = onto_step::<T, Q, false>(quad, onto_q, q, powers);
+            (scratch.v[i], slopes[i]) = onto_step::<T, Q, true>(quad, onto_v, v, powers);
+        }
+    }
+}

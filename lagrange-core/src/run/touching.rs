@@ -1,0 +1,78 @@
+//! Contacts that touch beside those that have closed: their gaps vanish, or are what rounding has left.
+
+use super::Run;
+use crate::arithmetic::{Scalar, rounding};
+use crate::effects::Item;
+use crate::modes::facts::SwitchFacts;
+use crate::modes::guard::Guard;
+
+/// A body that is closed at some points may be off by so many times more at others.
+const LEVER: f64 = 4.0;
+
+/// What is no larger than this beside the terms that make it is what rounding has left of zero.
+pub(super) const ROUNDING: f64 = 1e-13;
+
+impl<T: Scalar> Run<T> {
+    /// Contacts that have closed may bring others with them: a beam on two of its four supports lies on all. What comes to the edge of a surface may touch
+    /// another there: a wheel rolls about the edge of a table. Their gaps and rates vanish, and nothing but rounding would tell later which of them closes when. What an impact has thrown off is among them where the impacts
+    /// of the others end with it.
+    pub(super) fn take_what_touches(&mut self, facts: &mut SwitchFacts) {
+        let d = self.description();
+        let contacts = 0..d.contacts.len();
+        if !contacts.clone().any(|c| self.may_touch(c, facts)) {
+            return;
+        }
+        self.tape_of_all_rows();
+        self.now.valued = false;
+        let closed = contacts.clone().filter(|&c| facts.touching[c]);
+        let off = closed.map(|c| self.gap(c).abs()).fold(0.0, f64::max);
+        for c in contacts {
+            if self.may_touch(c, facts) && self.touches(c, off) {
+                self.end(c, facts);
+                let rubs = |f: &usize| d.frictions[*f].normal.is_of(c);
+                for f in (0..d.frictions.len()).filter(rubs) {
+                    facts.resting[f] = self.slip_vanishes(f);
+                }
+            }
+        }
+    }
+
+    /// The gap of contact `c`.
+    pub(super) fn gap(&self, c: usize) -> f64 {
+        let d = self.description();
+        let place = d.rows[d.contacts[c].row].position;
+        place.map_or(0.0, |place| self.dynamics.motion(place).value())
+    }
+
+    /// Whether contact `c` may touch: it takes part, and it is not known to touch, to be below its surface or to be at the edge of it.
+    pub(super) fn may_touch(&self, c: usize, facts: &SwitchFacts) -> bool {
+        let takes_part = self
+            .dynamics
+            .effects()
+            .includes(self.description(), Item::Contact(c));
+        let is_at_edge = facts.located.contains(&Guard::Region(c));
+        takes_part && !(facts.touching[c] || self.now.below[c] || is_at_edge)
+    }
+
+    /// Whether rounding explains the gap of contact `c`, or what the run has left of the gaps that vanish, which are `off` by so much: a table that
+    /// falls back from two of its feet lands on the others at once.
+    pub(super) fn is_within_rounding(&self, c: usize, off: f64) -> bool {
+        self.is_in_region(c) && self.gap(c).abs() <= self.rounding_of_gap(c).max(LEVER * off)
+    }
+
+    /// Whether the gap of contact `c` and its rate vanish beside the terms that make them; gaps that vanish are `off` by so much.
+    fn touches(&self, c: usize, off: f64) -> bool {
+        let contact = &self.description().contacts[c];
+        let number = |place| self.dynamics.motion(place).value();
+        let row = &self.description().rows[contact.row];
+        let gap = self.gap(c);
+        let terms = row.jacobian.iter();
+        let extent: f64 = terms
+            .map(|&(j, place)| number(place).abs() * self.now.state.q[j].value().abs().max(1.0))
+            .sum();
+        let (rate, size) = self.rate(contact.row);
+        self.is_in_region(c)
+            && gap.abs() <= rounding::<T>(ROUNDING) * extent + off
+            && rate.abs() <= rounding::<T>(ROUNDING) * size
+    }
+}

@@ -1,0 +1,144 @@
+//! Slips that vanish with what a switch has brought: with the contact that carries them, with other slips, or after an impact.
+
+use super::Run;
+use super::touching::ROUNDING;
+use crate::arithmetic::{Scalar, rounding};
+use crate::effects::Item;
+use crate::error::Error;
+use crate::mode::FrictionMode;
+use crate::modes::facts::SwitchFacts;
+use crate::modes::guard::Guard;
+use crate::modes::scale::AT_REST;
+
+impl<T: Scalar> Run<T> {
+    /// A contact that closes without impact carries frictions whose slip nobody has looked at, and may end slips that its rate is
+    /// part of: a stop that carries what rubs against it.
+    pub(super) fn rest_where_slip_vanishes(
+        &mut self,
+        facts: &mut SwitchFacts,
+    ) -> Result<(), Error> {
+        let d = self.description();
+        let closes = facts.arriving.contains(&true);
+        let wakes = |run: &Self, facts: &SwitchFacts, f: usize| {
+            d.frictions[f].normal.presses(|c| facts.touching[c])
+                && !facts.resting[f]
+                && (closes || run.now.mode.frictions[f] == FrictionMode::Inactive)
+                && run.dynamics.effects().includes(d, Item::Friction(f))
+        };
+        if !(0..d.frictions.len()).any(|f| wakes(self, facts, f)) {
+            return Ok(());
+        }
+        self.evaluate_all_rows()?;
+        for f in 0..d.frictions.len() {
+            if wakes(self, facts, f) {
+                facts.resting[f] = self.slip_vanishes(f);
+            }
+        }
+        Ok(())
+    }
+
+    /// What comes to rest may end other slips of which it leaves nothing: the brake of one axle stops the car, and with it the locked wheels
+    /// of the other one. Their zeros are one instant, which drift from the rows that act tears apart.
+    pub(super) fn rest_with_what_comes_to_rest(
+        &mut self,
+        facts: &mut SwitchFacts,
+    ) -> Result<(), Error> {
+        let comes = |guard: &Guard| matches!(guard, Guard::Slip(_));
+        let slips = |f: &usize| {
+            matches!(self.now.mode.frictions[*f], FrictionMode::Slip(_)) && !facts.resting[*f]
+        };
+        let mut ending = core::mem::take(&mut self.switcher.ending);
+        ending.clear();
+        if self.locator.fallen.iter().any(comes) {
+            ending.extend((0..facts.resting.len()).filter(slips));
+        }
+        self.rest_among(ending, facts)
+    }
+
+    /// A slip after an impact may be the error of rows that hold on: of a box that lands in the corner of a floor and a wall that move together.
+    pub(super) fn rest_where_impact_leaves_nothing(
+        &mut self,
+        facts: &mut SwitchFacts,
+    ) -> Result<(), Error> {
+        let d = self.description();
+        let rubs = |f: &usize| {
+            let friction = &d.frictions[*f];
+            d.rows[friction.row].rheonomic
+                && friction.normal.presses(|c| facts.touching[c])
+                && !facts.resting[*f]
+                && self.dynamics.effects().includes(d, Item::Friction(*f))
+        };
+        let mut ending = core::mem::take(&mut self.switcher.ending);
+        ending.clear();
+        if facts.touching.contains(&true) {
+            ending.extend((0..d.frictions.len()).filter(rubs));
+        }
+        self.rest_among(ending, facts)
+    }
+
+    /// Which of these slips are the errors of rows, and rest.
+    fn rest_among(&mut self, mut ending: Vec<usize>, facts: &mut SwitchFacts) -> Result<(), Error> {
+        if !ending.is_empty() {
+            self.evaluate_all_rows()?;
+        }
+        ending.retain(|&f| {
+            self.rates_of_slip(f)
+                .all(|(slip, size)| slip.abs() <= self.settings.tolerance * size.max(1.0))
+        });
+        if !ending.is_empty() {
+            self.rest_if_nothing_is_left(&ending, facts);
+        }
+        self.switcher.ending = ending;
+        Ok(())
+    }
+
+    /// Which of these slips vanish once all that rests sticks, and what touches stays closed.
+    fn rest_if_nothing_is_left(&mut self, ending: &[usize], facts: &mut SwitchFacts) {
+        self.switcher.before_holding.clone_from(&self.now.state);
+        let mode = &mut self.switcher.scratch_mode;
+        mode.clone_from(&self.now.mode);
+        mode.contacts.copy_from_slice(&facts.touching);
+        mode.release_sticking();
+        for (friction, resting) in mode.frictions.iter_mut().zip(&facts.resting) {
+            if *resting {
+                *friction = FrictionMode::Stick;
+            }
+        }
+        self.dynamics.set_mode(&self.switcher.scratch_mode);
+        // Where no velocity satisfies all rows together, none of the slips has ended.
+        if self.project(true).is_ok() && self.evaluate_all_rows().is_ok() {
+            for &f in ending {
+                facts.resting[f] = self.slip_vanishes(f);
+            }
+        }
+        self.now.state.clone_from(&self.switcher.before_holding);
+        self.dynamics.set_mode(&self.now.mode);
+        self.now.valued = false;
+    }
+
+    /// Whether the slip of friction `f` is zero beside the terms that make it.
+    pub(super) fn slip_vanishes(&self, f: usize) -> bool {
+        let sizes = self.rates_of_slip(f).map(|(_, size)| size);
+        let size = sizes.fold(0.0, f64::max);
+        let mut rates = self.rates_of_slip(f);
+        rates.all(|(rate, _)| rate.abs() <= rounding::<T>(ROUNDING) * size)
+    }
+
+    /// [`Self::rate`] of every component of the slip of friction `f`.
+    fn rates_of_slip(&self, f: usize) -> impl Iterator<Item = (f64, f64)> {
+        let friction = &self.description().frictions[f];
+        let rows = friction.rows();
+        rows.map(|row| self.rate(row))
+    }
+
+    /// Rate of a row (slip, rate of a gap) and the size of the terms that make it; a velocity that is zero is so only to some
+    /// 1e-16 of the unit, as projections leave it.
+    pub(super) fn rate(&self, row: usize) -> (f64, f64) {
+        let row = &self.description().rows[row];
+        let number = |place| self.dynamics.motion(place).value();
+        let size = |j: usize| self.now.state.v[j].value().abs() + AT_REST;
+        let terms = row.jacobian.iter();
+        let sizes = terms.map(|&(j, place)| number(place).abs() * size(j));
+        (number(row.velocity), sizes.sum())
+    }
+}

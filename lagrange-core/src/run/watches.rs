@@ -1,0 +1,331 @@
+//! Stops and marks: where their terms rise through zero in a step, and which become true with a switch.
+
+use super::Run;
+use super::instant::nearest;
+use crate::arithmetic::{Scalar, epsilon};
+use crate::dynamics::OutputMask;
+use crate::error::Error;
+use crate::events::{Direction, RootList, first_root, roots};
+use crate::integrate::{polynomial_derivative as slope, polynomial_value as value};
+use crate::modes::guard::{self, Guard};
+use crate::modes::reading::Reading;
+use crate::system::Watch;
+use crate::trajectory::{EventKind, Subject};
+
+/// Coefficients this much smaller than all together cannot be told from 0: some degrees times rounding.
+pub(super) const RESOLUTION: f64 = 1e-13;
+
+/// So many units of rounding are between the time of a root and of the same one when the next step begins.
+const UNITS_OF_TIME: f64 = 64.0;
+
+/// A term of a stop or of a mark over the step.
+#[derive(Clone, Copy)]
+struct Term<'c> {
+    guard: Guard,
+    curve: &'c [f64],
+    /// Whether it was below zero when the step began.
+    was_below: bool,
+    /// Whether its first rise has been seen before.
+    comes_back: bool,
+}
+
+impl<T: Scalar> Run<T> {
+    /// Asks for the stops and marks that take part.
+    pub(super) fn watch(&mut self) {
+        let d = self.description();
+        let mut needs = OutputMask::new(d);
+        for &i in &self.locator.polynomials.stops {
+            needs.insert(d.stops[i].need);
+        }
+        for &i in &self.locator.polynomials.marks {
+            needs.insert(d.marks[i].need);
+        }
+        self.dynamics.set_report_needs(&needs);
+    }
+
+    /// A mark that begins below zero has not passed it: remembers on which side the marks begin.
+    pub(super) fn begin_sides(&mut self) {
+        let reading = Reading::Series(&self.dynamics);
+        for (i, below) in self.locator.mark_below.iter_mut().enumerate() {
+            for (k, below) in below.iter_mut().enumerate() {
+                *below = guard::value(Guard::Mark(i, k), &self.now.mode, &reading) < 0.0;
+            }
+        }
+    }
+
+    /// The earliest stop up to part `end` of the step.
+    pub(super) fn first_stop(&self, end: f64) -> Option<(usize, f64)> {
+        let d = self.description();
+        let resolution = self.resolution_of_time();
+        let curves = &self.locator.polynomials;
+        let mut best: Option<(usize, f64)> = None;
+        for &i in &curves.stops {
+            let below = &self.locator.stop_below[i];
+            let first = self.becomes_true(&d.stops[i], end, |k| {
+                let curve = curves.stop_term(i, k);
+                Term {
+                    guard: Guard::Stop(i, k),
+                    curve,
+                    was_below: below[k],
+                    comes_back: comes_back_at_once(curve, below[k], resolution),
+                }
+            });
+            if let Some(s) = first
+                && best.is_none_or(|(_, t)| s < t)
+            {
+                best = Some((i, s));
+            }
+        }
+        best
+    }
+
+    /// Marks up to part `end` of the step, in order.
+    pub(super) fn marks_until(&self, end: f64, list: &mut Vec<(usize, f64)>) {
+        let d = self.description();
+        let resolution = self.resolution_of_time();
+        // A mark at the surface of a contact is passed where the contact is hit, whichever of both roots rounding puts first.
+        let last = end + resolution;
+        let curves = &self.locator.polynomials;
+        list.clear();
+        for &i in &curves.marks {
+            let watch = &d.marks[i];
+            if watch.zeros {
+                let mut all = RootList::new();
+                let curve = curves.mark_term(i, 0);
+                roots(curve, &mut all);
+                let below = self.locator.mark_below[i][0];
+                let comes_back = self.comes_back(i, 0, curve, resolution);
+                let known = self.known_zero(i, 0, curve, resolution);
+                let seen = comes_back || known.is_some();
+                if !seen && ((below && curve[0] > 0.0) || (!below && curve[0] < 0.0)) {
+                    list.push((i, 0.0));
+                }
+                let roots = all.iter().skip(usize::from(comes_back));
+                let roots = roots.skip_while(|root| known.is_some_and(|until| root.s <= until));
+                let places = roots.map(|root| self.place(Guard::Mark(i, 0), root).0);
+                list.extend(
+                    places
+                        .filter(|s| *s <= last && self.now.mode.satisfies(watch.conditions))
+                        .map(|s| (i, s.min(end))),
+                );
+            } else {
+                let below = &self.locator.mark_below[i];
+                let first = self.becomes_true(watch, last, |k| {
+                    let curve = curves.mark_term(i, k);
+                    Term {
+                        guard: Guard::Mark(i, k),
+                        curve,
+                        was_below: below[k],
+                        comes_back: self.comes_back(i, k, curve, resolution),
+                    }
+                });
+                list.extend(first.map(|s| (i, s.min(end))));
+            }
+        }
+        list.sort_by(|a, b| a.1.total_cmp(&b.1));
+    }
+
+    /// First instant up to `end` at which a watch becomes true: a term rises through zero while the others are true.
+    fn becomes_true<'c>(
+        &self,
+        watch: &Watch,
+        end: f64,
+        term: impl Fn(usize) -> Term<'c>,
+    ) -> Option<f64> {
+        if !self.now.mode.satisfies(watch.conditions) {
+            return None;
+        }
+        let mut best: Option<f64> = None;
+        for k in 0..watch.terms.len() {
+            let Term {
+                guard,
+                curve,
+                was_below,
+                mut comes_back,
+            } = term(k);
+            let others =
+                |s: f64| (0..watch.terms.len()).all(|j| j == k || self.is_true(term(j), s));
+            let mut consider = |s: f64| {
+                if s <= end && others(s) && best.is_none_or(|b| s < b) {
+                    best = Some(s);
+                }
+            };
+            if was_below && curve.first().is_some_and(|c| *c >= 0.0) {
+                consider(0.0);
+            }
+            let mut from = 0.0;
+            while let Some(root) = first_root(curve, from) {
+                let (s, _) = self.place(guard, &root);
+                if s > end {
+                    break;
+                }
+                let rises = root.direction == Direction::Rising && !root.grazing;
+                if rises && !core::mem::take(&mut comes_back) {
+                    consider(s);
+                }
+                // A root that rounding puts at 0 must not be found again.
+                from = root.s.max(f64::MIN_POSITIVE);
+                if from >= 1.0 {
+                    break;
+                }
+            }
+        }
+        best
+    }
+
+    /// Whether a term is true at part `s` of the step or becomes so there, as far as rounding can tell.
+    fn is_true(&self, term: Term<'_>, s: f64) -> bool {
+        let s = self.interpolated(term.guard, s);
+        let now = value(term.curve, s);
+        now >= 0.0
+            || is_zero(term.curve, s, now, self.resolution_of_time()) && slope(term.curve, s) > 0.0
+    }
+
+    /// Whether a term of a mark crosses zero once more only because rounding has put it back to the side from which it has come, or,
+    /// by no more than the tolerance, the projection onto the constraints after the step in which it passed.
+    fn comes_back(&self, mark: usize, term: usize, curve: &[f64], resolution: f64) -> bool {
+        let within = self.within(mark, term, resolution);
+        comes_back_at_once(curve, self.locator.mark_below[mark][term], within)
+    }
+
+    /// The part of the step up to which a zero of a term of a mark is the one with which the step begins, if it does and that is known: the run
+    /// starts there, or it has been logged and an impact has turned the term back.
+    fn known_zero(&self, mark: usize, term: usize, curve: &[f64], resolution: f64) -> Option<f64> {
+        let [start, rate, ..] = *curve else {
+            return None;
+        };
+        let starts = self.recorder.trajectory.segments.is_empty();
+        let logged = self.locator.mark_passed[mark] == Some(term);
+        let within = self.within(mark, term, resolution);
+        let known = (starts || logged) && is_zero(curve, 0.0, start, within);
+        known.then(|| resolution.max(2.0 * (start / rate).abs()))
+    }
+
+    /// The part of the step within which a zero of a term of a mark counts as the one at the end of the last step.
+    fn within(&self, mark: usize, term: usize, resolution: f64) -> f64 {
+        let step = &self.stepper.step;
+        match self.locator.mark_passed[mark] == Some(term) {
+            true => self.settings.tolerance * (step.t.value() / step.h.value()).abs().max(1.0),
+            false => resolution,
+        }
+    }
+
+    /// The part of the step to which rounding resolves the time of an event.
+    fn resolution_of_time(&self) -> f64 {
+        let step = &self.stepper.step;
+        UNITS_OF_TIME * epsilon::<T>() * (step.t.value() / step.h.value()).abs()
+    }
+
+    /// Remembers on which side the terms of stops and marks are at part `end` of the step. The term of a mark that has been logged there is on
+    /// the side to which it goes.
+    pub(super) fn remember_sides(&mut self, end: f64) {
+        let resolution = self.resolution_of_time();
+        let curves = &self.locator.polynomials;
+        for &i in &curves.stops {
+            for (k, below) in self.locator.stop_below[i].iter_mut().enumerate() {
+                *below = is_below(curves.stop_term(i, k), end, resolution, *below);
+            }
+        }
+        for &i in &curves.marks {
+            let here = |&(mark, s): &(usize, f64)| mark == i && (end - s).abs() <= resolution;
+            let logged = self.locator.marks.iter().any(here);
+            let below = &mut self.locator.mark_below[i];
+            let passed = match logged {
+                true => nearest(0..below.len(), end, |k| curves.mark_term(i, k)),
+                false => None,
+            };
+            for (k, below) in below.iter_mut().enumerate() {
+                *below = match passed {
+                    Some((term, slope)) if term == k => slope < 0.0,
+                    _ => is_below(curves.mark_term(i, k), end, resolution, *below),
+                };
+            }
+            self.locator.mark_passed[i] = passed.map(|(term, _)| term);
+        }
+    }
+
+    pub(super) fn log_marks(&mut self, end: f64) {
+        if self.locator.polynomials.marks.is_empty() {
+            return;
+        }
+        let mut marks = core::mem::take(&mut self.locator.marks);
+        self.marks_until(end, &mut marks);
+        for &(mark, s) in &marks {
+            let s = self.exact_mark(mark, s);
+            let mut state = core::mem::take(&mut self.stepper.scratch);
+            self.stepper.step.state_into(s, &mut state.q, &mut state.v);
+            let time = self.stepper.step.time(s);
+            self.now.valued = false;
+            if self.dynamics.value_along(time, &state.q, &state.v).is_ok() {
+                self.log_watch(Subject::Mark(mark), EventKind::Mark, time, &state);
+            }
+            self.stepper.scratch = state;
+        }
+        self.locator.marks = marks;
+    }
+
+    /// Stops whose conditions the switch has just made true.
+    pub(super) fn stops_of_the_mode(&mut self) -> Result<(), Error> {
+        let d = self.description();
+        for at in 0..self.locator.polynomials.stops.len() {
+            let i = self.locator.polynomials.stops[at];
+            if self.has_become_true(&d.stops[i], |k| Guard::Stop(i, k)) {
+                self.evaluate()?;
+                self.finish(i);
+                return Ok(());
+            }
+        }
+        for at in 0..self.locator.polynomials.marks.len() {
+            let i = self.locator.polynomials.marks[at];
+            if self.has_become_true(&d.marks[i], |k| Guard::Mark(i, k)) {
+                self.evaluate()?;
+                self.log_here(Subject::Mark(i), EventKind::Mark);
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the switch has made the conditions of a watch hold while its terms do.
+    fn has_become_true(&self, watch: &Watch, term: impl Fn(usize) -> Guard) -> bool {
+        let reading = Reading::Series(&self.dynamics);
+        let value = |k| guard::value(term(k), &self.now.mode, &reading);
+        !watch.conditions.is_empty()
+            && !self.recorder.before.mode.satisfies(watch.conditions)
+            && self.now.mode.satisfies(watch.conditions)
+            && (0..watch.terms.len()).all(|k| value(k) >= 0.0)
+    }
+}
+
+/// Whether a term is below zero at part `s` of a step. Where it is zero, whatever rounding makes of it, it is on the side from which it
+/// comes: the one where it was before, if it was zero all the time.
+fn is_below(curve: &[f64], s: f64, resolution: f64, was_below: bool) -> bool {
+    let now = value(curve, s);
+    if !is_zero(curve, s, now, resolution) {
+        return now < 0.0;
+    }
+    match is_zero(curve, 0.0, value(curve, 0.0), resolution) {
+        true => was_below,
+        false => slope(curve, s) > 0.0,
+    }
+}
+
+/// Whether a curve, `now` at part `s` of a step, is zero there, as far as rounding can tell: of its terms, or of the time, to which the
+/// step is resolved to within this part of it.
+fn is_zero(curve: &[f64], s: f64, now: f64, resolution: f64) -> bool {
+    let size: f64 = curve.iter().map(|c| c.abs()).sum();
+    let steepest = curve.len() as f64 * size;
+    let far = now.abs() > (RESOLUTION * size).max(resolution * steepest);
+    !far && now.abs() <= (RESOLUTION * size).max(resolution * slope(curve, s).abs())
+}
+
+/// Whether rounding has put the begin of a curve to the side from which it has come, and it crosses zero to the other one again.
+fn comes_back_at_once(curve: &[f64], was_below: bool, resolution: f64) -> bool {
+    let [start, rate, ..] = *curve else {
+        return false;
+    };
+    let crosses = match was_below {
+        true => start > 0.0 && rate < 0.0,
+        false => start < 0.0 && rate > 0.0,
+    };
+    crosses && is_zero(curve, 0.0, start, resolution)
+}
