@@ -7,7 +7,7 @@
 //!
 //! Collins & Akritas (1976); Lane & Riesenfeld, "Bounds on a polynomial", BIT 21 (1981).
 
-use core::ops::ControlFlow::{self, Break, Continue};
+use core::ops::ControlFlow::{self, Continue};
 
 use super::bernstein::{Coefficients, MAX_DEGREE, from_powers, split, variations};
 use super::refine::{Powers, extremum, noise_factor, root};
@@ -27,26 +27,18 @@ const MIN_WIDTH: f64 = 1.0 / (1u64 << 44) as f64;
 /// If the degree is above [`MAX_DEGREE`].
 pub fn roots(c: &[f64], out: &mut RootList) {
     out.clear();
-    let _ = visit_roots(c, 0.0, &mut |root| {
+    let _: ControlFlow<()> = visit_roots(c, &mut |root| {
         out.push(root);
         Continue(())
     });
 }
 
-/// The earliest root of Σ cₖ sᵏ in (`from`, 1], 0 ≤ `from` < 1. A root whose enclosure touches `from` is left out.
+/// Shows the roots of Σ cₖ sᵏ in (0, 1] to `judge` in ascending order, until it breaks; with what, if it does. Later roots are not looked for.
 ///
 /// # Panics
 /// If the degree is above [`MAX_DEGREE`].
-pub fn first_root(c: &[f64], from: f64) -> Option<Root> {
-    let mut first = None;
-    let _ = visit_roots(c, from, &mut |root| {
-        if from > 0.0 && root.s - 0.5 * root.width <= from {
-            return Continue(());
-        }
-        first = Some(root);
-        Break(())
-    });
-    first
+pub fn find_root<R>(c: &[f64], mut judge: impl FnMut(Root) -> ControlFlow<R>) -> Option<R> {
+    visit_roots(c, &mut judge).break_value()
 }
 
 /// Where Σ cₖ sᵏ turns in (0, 1], ascending, into `out`.
@@ -79,10 +71,10 @@ pub fn deflate(c: &[f64], m: usize) -> &[f64] {
     &c[m.min(c.len())..]
 }
 
-/// Calls `visit` for each root in ascending order until it breaks; roots up to `from` may be left out.
-fn visit_roots<F>(c: &[f64], from: f64, visit: &mut F) -> ControlFlow<()>
+/// Calls `visit` for each root in ascending order until it breaks.
+fn visit_roots<R, F>(c: &[f64], visit: &mut F) -> ControlFlow<R>
 where
-    F: FnMut(Root) -> ControlFlow<()>,
+    F: FnMut(Root) -> ControlFlow<R>,
 {
     let size = match root_filter(c) {
         RootFilter::NoRoots => return Continue(()),
@@ -111,15 +103,12 @@ where
     );
 
     let powers = Powers(&c[..length]);
-    let mut b = from_powers(powers.0);
-    if from > 0.0 {
-        b = split(&b[..length], from).1;
-    }
+    let b = from_powers(powers.0);
     let search = Search {
         powers,
         noise: noise_factor(c.len()) * size,
     };
-    search.interval(&b, from, 1.0, visit)?;
+    search.interval(&b, 0.0, 1.0, visit)?;
     let before = b[..length].iter().rfind(|b| b.abs() > search.noise);
     match before.and_then(|before| search.root_at_end(*before > 0.0)) {
         Some(root) => visit(root),
@@ -160,9 +149,9 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// Visits the roots in (lo, hi), where the polynomial has the Bernstein coefficients `b`.
-    fn interval<F>(&self, b: &Coefficients, lo: f64, hi: f64, visit: &mut F) -> ControlFlow<()>
+    fn interval<R, F>(&self, b: &Coefficients, lo: f64, hi: f64, visit: &mut F) -> ControlFlow<R>
     where
-        F: FnMut(Root) -> ControlFlow<()>,
+        F: FnMut(Root) -> ControlFlow<R>,
     {
         let b = &b[..self.powers.0.len()];
         let signs = variations(b.iter().copied(), self.noise);
@@ -212,9 +201,9 @@ impl Search<'_> {
     }
 
     /// An interval with one extremum, of the sign opposite to that of its ends or close to zero.
-    fn turning<F>(&self, lo: f64, hi: f64, positive: bool, visit: &mut F) -> ControlFlow<()>
+    fn turning<R, F>(&self, lo: f64, hi: f64, positive: bool, visit: &mut F) -> ControlFlow<R>
     where
-        F: FnMut(Root) -> ControlFlow<()>,
+        F: FnMut(Root) -> ControlFlow<R>,
     {
         let (s, _) = extremum(self.powers, lo..hi, positive, 0.5 * (lo + hi));
         let [value, _, curvature] = self.powers.taylor(s);

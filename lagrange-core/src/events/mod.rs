@@ -2,7 +2,7 @@
 //!
 //! A stepper gives every armed guard as a polynomial in s ∈ [0, 1], t = t₀ + h s, with coefficients already
 //! multiplied by hᵏ. Most keep their sign: [`keeps_its_sign`] knows it from a bound. [`roots`] isolates all zeros in (0, 1],
-//! [`first_root`] the earliest.
+//! [`find_root`] the first that matters.
 //!
 //! What is not decided here: a guard that *starts* at zero or below it. A root at s = 0 belongs to the step
 //! before, so the caller [`deflate`]s guards known to be zero there, and treats one that starts negative as an event at s = 0.
@@ -15,7 +15,7 @@ mod root_filter;
 mod tests;
 
 pub use bernstein::MAX_DEGREE;
-pub use isolate::{clearance, deflate, first_root, roots, turns};
+pub use isolate::{clearance, deflate, find_root, roots, turns};
 pub use root_filter::keeps_its_sign;
 
 /// Which way a guard passes zero.

@@ -7,13 +7,14 @@ use super::region::is_edge_in_flight;
 use super::spatial_slip::Rest;
 use super::watches::RESOLUTION;
 use crate::arithmetic::{Scalar, epsilon};
-use crate::events::{Direction, deflate, first_root};
+use crate::events::{Direction, deflate, find_root};
 use crate::integrate::{polynomial_derivative as slope, polynomial_value as value};
 use crate::mode::Mode;
 use crate::modes::composite::CompositeGuard;
 use crate::modes::guard::{Guard, LENGTH};
 use crate::settings::Settings;
 use crate::system::{Description, Watch};
+use core::ops::ControlFlow::{Break, Continue};
 
 /// Residues move a root by less than this share of its time; else they are what the guard is.
 const RESIDUE: f64 = 1e-3;
@@ -173,20 +174,15 @@ impl<T: Scalar> Run<T> {
         if falls_at_once(curve) && !self.is_below(guard) && self.within_region(guard, 0.0) {
             return Some((0.0, 0.0));
         }
-        let mut from = 0.0;
-        while let Some(root) = first_root(curve, from) {
+        let root = find_root(curve, |root| {
             let falls = root.direction == Direction::Falling && !root.grazing;
-            if falls && self.within_region(guard, root.s) {
-                let (s, width) = self.place(guard, &root);
-                return Some((self.with_residues(guard, whole, s), width));
+            match falls && self.within_region(guard, root.s) {
+                true => Break(root),
+                false => Continue(()),
             }
-            // A root that rounding puts at 0 must not be found again.
-            from = root.s.max(f64::MIN_POSITIVE);
-            if from >= 1.0 {
-                break;
-            }
-        }
-        None
+        })?;
+        let (s, width) = self.place(guard, &root);
+        Some((self.with_residues(guard, whole, s), width))
     }
 
     /// How many leading coefficients of a guard are known to vanish.

@@ -9,11 +9,12 @@ use super::Run;
 use super::guard_polynomials::rounding;
 use crate::arithmetic::Scalar;
 use crate::effects::Item;
-use crate::events::{Direction, first_root};
+use crate::events::{Direction, find_root};
 use crate::integrate::polynomial_value as value;
 use crate::mode::Mode;
 use crate::modes::guard::Guard;
 use crate::system::{Contact, ValueRef};
+use core::ops::ControlFlow::Break;
 
 /// Whether a guard is the edge of a contact that is open in a mode.
 pub(super) fn is_edge_in_flight(guard: Guard, mode: &Mode) -> bool {
@@ -52,7 +53,7 @@ impl<T: Scalar> Run<T> {
             return None;
         };
         let gap = self.locator.polynomials.of(Guard::Gap(c))?;
-        let root = first_root(self.judged(edge, curve)?, 0.0)?;
+        let root = find_root(self.judged(edge, curve)?, Break)?;
         let enters = root.direction == Direction::Rising && !root.grazing;
         let (s, width) = self.place(edge, &root);
         (enters && value(gap, s).abs() <= self.touching()).then_some((s, width))

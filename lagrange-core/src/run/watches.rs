@@ -5,12 +5,13 @@ use super::instant::nearest;
 use crate::arithmetic::{Scalar, epsilon};
 use crate::dynamics::OutputMask;
 use crate::error::Error;
-use crate::events::{Direction, RootList, first_root, roots};
+use crate::events::{Direction, RootList, find_root, roots};
 use crate::integrate::{polynomial_derivative as slope, polynomial_value as value};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
 use crate::system::Watch;
 use crate::trajectory::{EventKind, Subject};
+use core::ops::ControlFlow::{Break, Continue};
 
 /// Coefficients this much smaller than all together cannot be told from 0: some degrees times rounding.
 pub(super) const RESOLUTION: f64 = 1e-13;
@@ -153,22 +154,17 @@ impl<T: Scalar> Run<T> {
             if was_below && curve.first().is_some_and(|c| *c >= 0.0) {
                 consider(0.0);
             }
-            let mut from = 0.0;
-            while let Some(root) = first_root(curve, from) {
+            find_root(curve, |root| {
                 let (s, _) = self.place(guard, &root);
                 if s > end {
-                    break;
+                    return Break(());
                 }
                 let rises = root.direction == Direction::Rising && !root.grazing;
                 if rises && !core::mem::take(&mut comes_back) {
                     consider(s);
                 }
-                // A root that rounding puts at 0 must not be found again.
-                from = root.s.max(f64::MIN_POSITIVE);
-                if from >= 1.0 {
-                    break;
-                }
-            }
+                Continue(())
+            });
         }
         best
     }
@@ -198,7 +194,10 @@ impl<T: Scalar> Run<T> {
         let logged = self.locator.mark_passed[mark] == Some(term);
         let within = self.within(mark, term, resolution);
         let known = (starts || logged) && is_zero(curve, 0.0, start, within);
-        known.then(|| resolution.max(2.0 * (start / rate).abs()))
+        known.then(|| {
+            let risen = resolution.max(2.0 * (start / rate).abs());
+            risen.max(rises_from_rounding(curve))
+        })
     }
 
     /// The part of the step within which a zero of a term of a mark counts as the one at the end of the last step.
@@ -316,6 +315,16 @@ fn is_zero(curve: &[f64], s: f64, now: f64, resolution: f64) -> bool {
     let steepest = curve.len() as f64 * size;
     let far = now.abs() > (RESOLUTION * size).max(resolution * steepest);
     !far && now.abs() <= (RESOLUTION * size).max(resolution * slope(curve, s).abs())
+}
+
+/// The part of a step after which a curve that begins with zero can be told from it, by the first of its terms that is no rounding.
+fn rises_from_rounding(curve: &[f64]) -> f64 {
+    let noise = RESOLUTION * curve.iter().map(|c| c.abs()).sum::<f64>();
+    let first = curve.iter().position(|c| c.abs() > noise);
+    match first {
+        Some(order) if order > 0 => (noise / curve[order].abs()).powf(1.0 / order as f64),
+        _ => 0.0,
+    }
 }
 
 /// Whether rounding has put the begin of a curve to the side from which it has come, and it crosses zero to the other one again.
