@@ -24,6 +24,8 @@ pub struct Part {
 pub struct CompositeGuard {
     /// The guards, with weights that are all positive.
     pub parts: Vec<Part>,
+    /// How long after the begin of the step at hand forces cease to keep all bounds, where that has been located by the forces themselves, s.
+    pub falls_after: Option<f64>,
 }
 
 impl CompositeGuard {

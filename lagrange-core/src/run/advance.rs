@@ -32,6 +32,8 @@ impl<T: Scalar> Run<T> {
         if self.now.valued {
             self.dynamics.note_loads();
         }
+        let composites = &mut self.locator.polynomials.composites;
+        composites.iter_mut().for_each(|c| c.falls_after = None);
         let hit = self.accepted_step()?;
         self.check_resolution()?;
         let end = self.take_step(&hit)?;

@@ -169,6 +169,12 @@ impl<T: Scalar> Run<T> {
         if is_edge_in_flight(guard, &self.now.mode) {
             return self.comes_onto(guard, curve);
         }
+        if let Guard::Composite(k) = guard
+            && let Some(after) = self.locator.polynomials.composites[k].falls_after
+        {
+            let s = after / self.stepper.step.h.value();
+            return (s <= 1.0).then_some((s, 2.0 * f64::EPSILON * s));
+        }
         let whole = curve;
         let curve = self.judged(guard, whole)?;
         if falls_at_once(curve) && !self.is_below(guard) && self.within_region(guard, 0.0) {

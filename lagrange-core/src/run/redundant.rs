@@ -2,7 +2,8 @@
 //!
 //! Guards of single undetermined forces mean nothing; in their place stand composite guards, found where a step ends in a state
 //! that no admissible forces allow. The root of such a guard is the end of the mode. Where the dependence of the rows
-//! changes along the motion, the weights of the guard are taken again at its root until both agree.
+//! changes along the motion, the weights of the guard are taken again at its root until both agree. Where the directions of friction turn so fast
+//! that they never do, the instant at which forces cease to keep all bounds is located by the forces themselves.
 
 use super::Run;
 use super::hit::Hit;
@@ -115,7 +116,8 @@ impl<T: Scalar> Run<T> {
             .as_ref()
             .map(|composite| self.joint_value(composite));
         let within = looked > 0.0 && self.switcher.redundant.has_open();
-        let mut again = within && self.finds_joints_within(looked) || others;
+        let mut last_kept = 0.0;
+        let mut again = within && self.finds_joints_within(looked, &mut last_kept) || others;
         let fallen = self
             .locator
             .fallen
@@ -127,12 +129,23 @@ impl<T: Scalar> Run<T> {
         let composites = &mut self.locator.polynomials.composites;
         match (fallen, critical, value) {
             (None, Some(composite), Some(value)) if value < -ROOT => {
-                composites.push(composite);
-                again = true;
+                let known = self.locator.refuted.iter();
+                match looked > 0.0 && known.into_iter().any(|known| known.is_like(&composite)) {
+                    true => again |= self.locates_a_joint([last_kept, looked], looked),
+                    false => {
+                        composites.push(composite);
+                        again = true;
+                    }
+                }
             }
             (Some(k), Some(composite), Some(value)) => {
-                composites[k] = composite;
-                again |= value.abs() > ROOT;
+                let is_root = value.abs() <= ROOT;
+                let falls_after = composites[k].falls_after.filter(|_| is_root);
+                composites[k] = CompositeGuard {
+                    falls_after,
+                    ..composite
+                };
+                again |= !is_root;
             }
             (Some(k), ..) => {
                 self.locator.refuted.push(composites.remove(k));
@@ -186,35 +199,81 @@ impl<T: Scalar> Run<T> {
     }
 
     /// Looks for composite guards at some instants before part `end` of the step, where `dynamics` and `scratch` end again: whether
-    /// there are new ones, or known ones are below zero with weights that are new.
-    fn finds_joints_within(&mut self, end: f64) -> bool {
+    /// there are new ones, or known ones are below zero with weights that are new. `last_kept` is the last of these instants at which forces keep all
+    /// bounds.
+    fn finds_joints_within(&mut self, end: f64, last_kept: &mut f64) -> bool {
         let mut found = false;
-        for part in WITHIN {
-            if self.evaluate_end(part * end).is_err() {
+        for part in WITHIN.map(|part| part * end) {
+            if self.evaluate_end(part).is_err() {
                 continue;
             }
             self.switcher.redundant.follow(&mut self.dynamics);
             let Some(composite) = self.switcher.redundant.critical(NEARBY) else {
+                *last_kept = part;
                 continue;
             };
+            let falls = self.joint_value(&composite) < -ROOT;
+            if !falls {
+                *last_kept = part;
+            }
             let mut known = self.locator.polynomials.composites.iter();
             match known.position(|known| known.is_like(&composite)) {
                 None => {
                     // Where directions of friction turn, what is open cancels at one instant only: the root of such a guard may be none.
                     let mut refuted = self.locator.refuted.iter();
                     let refuted = refuted.any(|refuted| refuted.is_like(&composite));
-                    if !refuted || self.joint_value(&composite) < -ROOT {
+                    if refuted && falls {
+                        return self.locates_a_joint([*last_kept, part], end);
+                    }
+                    if !refuted {
                         self.locator.polynomials.composites.push(composite);
                         found = true;
                     }
                 }
                 Some(k) => {
-                    let falls = self.joint_value(&composite) < -ROOT;
-                    found |=
-                        falls && self.joint_value(&self.locator.polynomials.composites[k]) >= -ROOT;
-                    self.locator.polynomials.composites[k] = composite;
+                    let known = &mut self.locator.polynomials.composites[k];
+                    if known.falls_after.is_none() {
+                        let was = core::mem::replace(known, composite);
+                        found |= falls && self.joint_value(&was) >= -ROOT;
+                    }
                 }
             }
+        }
+        // What could be evaluated before.
+        _ = self.evaluate_end(end);
+        self.look_at_redundant_forces();
+        found
+    }
+
+    /// Locates where between these parts of the step forces cease to keep all bounds, and adds the composite guard that says so; `dynamics` and
+    /// `scratch` end at part `end` again. Not found: they do not keep them at the first part either.
+    fn locates_a_joint(&mut self, [mut before, mut after]: [f64; 2], end: f64) -> bool {
+        let mut critical_at = |run: &mut Self, part: f64, border: f64| {
+            run.evaluate_end(part).ok()?;
+            run.switcher.redundant.follow(&mut run.dynamics);
+            run.switcher.redundant.critical(border)
+        };
+        if critical_at(self, before, -ROOT).is_none() {
+            while after - before > 2.0 * f64::EPSILON * after {
+                let middle = 0.5 * (before + after);
+                if middle <= before || middle >= after {
+                    break;
+                }
+                match critical_at(self, middle, 0.0) {
+                    Some(_) => after = middle,
+                    None => before = middle,
+                }
+            }
+        }
+        let located = critical_at(self, after, BORDER);
+        let falls_after = Some(after * self.stepper.step.h.value());
+        let located = located.map(|composite| CompositeGuard {
+            falls_after,
+            ..composite
+        });
+        let found = located.is_some() && before > 0.0;
+        if found {
+            self.locator.polynomials.composites.extend(located);
         }
         // What could be evaluated before.
         _ = self.evaluate_end(end);

@@ -270,6 +270,7 @@ impl<T: Scalar> RedundantForces<T> {
         });
         Some(CompositeGuard {
             parts: parts.collect(),
+            falls_after: None,
         })
     }
 
