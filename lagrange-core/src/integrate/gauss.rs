@@ -8,7 +8,7 @@
 //! Qᵢ = q + cᵢ h v + h² Σⱼ (A²)ᵢⱼ aⱼ,   Vᵢ = v + h Σⱼ Aᵢⱼ aⱼ,   aᵢ = a(t + cᵢ h, Qᵢ, Vᵢ)
 //! ```
 
-use super::{Acceleration, Accepted, StepError, StepPolynomial, hermite};
+use super::{Acceleration, Accepted, Start, StepError, StepPolynomial, hermite};
 use crate::arithmetic::{Scalar, epsilon};
 
 const STAGES: usize = 3;
@@ -90,7 +90,7 @@ impl<T: Scalar> Gauss<T> {
         self.last = None;
     }
 
-    /// One step from (`t`, `q`, `v`) of the fixed size, or of `h_max` if that is smaller, with dense output into `out`.
+    /// One step from a state, of the fixed size, or of `h_max` if that is smaller, with dense output into `out`.
     ///
     /// # Errors
     /// [`StepError::Acceleration`] where the system has no accelerations, [`StepError::NoConvergence`] if the step is too
@@ -98,16 +98,15 @@ impl<T: Scalar> Gauss<T> {
     pub fn step<A: Acceleration<T>>(
         &mut self,
         system: &mut A,
-        t: T,
-        q: &[T],
-        v: &[T],
+        from: Start<'_, T>,
         h_max: f64,
         out: &mut StepPolynomial<T>,
     ) -> Result<Accepted, StepError<A::Error>> {
+        let Start { t, q, v } = from;
         let size = self.step.min(h_max);
         let h = T::from_f64(size);
-        let mut evaluations = self.begin(system, t, q, v, size)?;
-        evaluations += self.iterate(system, t, q, v, size)?;
+        let mut evaluations = self.begin(system, from, size)?;
+        evaluations += self.iterate(system, from, size)?;
 
         // The changes still hold what rounding took from the step before: it is added now (Kahan 1965, Møller 1965).
         self.end.0 = t + h;
@@ -159,11 +158,10 @@ impl<T: Scalar> Gauss<T> {
     fn begin<A: Acceleration<T>>(
         &mut self,
         system: &mut A,
-        t: T,
-        q: &[T],
-        v: &[T],
+        from: Start<'_, T>,
         h: f64,
     ) -> Result<usize, StepError<A::Error>> {
+        let Start { t, q, v } = from;
         let n = self.coordinates;
         let [start, end] = &mut self.ends;
         let goes_on = self.end.0 == t && self.end.1[0] == q && self.end.1[1] == v;
@@ -197,11 +195,10 @@ impl<T: Scalar> Gauss<T> {
     fn iterate<A: Acceleration<T>>(
         &mut self,
         system: &mut A,
-        t: T,
-        q: &[T],
-        v: &[T],
+        from: Start<'_, T>,
         size: f64,
     ) -> Result<usize, StepError<A::Error>> {
+        let Start { t, q, v } = from;
         /// An iteration that needs more has a step that is far too large.
         const MAX_ITERATIONS: usize = 60;
         // Changes this small, relative to the accelerations, are allowed not to decrease any more: they are rounding. So are those

@@ -1,7 +1,9 @@
 //! Every method that integrates [`Acceleration`]s, behind one set of functions.
 
 use super::control::Tolerance;
-use super::{Acceleration, Accepted, Gauss, Method, Radau, RungeKutta, StepError, StepPolynomial};
+use super::{
+    Acceleration, Accepted, Gauss, Method, Radau, RungeKutta, Start, StepError, StepPolynomial,
+};
 use crate::arithmetic::Scalar;
 
 /// A method other than Taylor's, and its memory.
@@ -60,39 +62,34 @@ impl<T: Scalar> Integrator<T> {
     pub fn first_step<A: Acceleration<T>>(
         &mut self,
         system: &mut A,
-        t: T,
-        q: &[T],
-        v: &[T],
+        from: Start<'_, T>,
         h_max: f64,
         tolerance: Tolerance,
     ) -> Result<f64, StepError<A::Error>> {
         match self {
-            Self::RungeKutta(method) => method.first_step(system, t, q, v, h_max, tolerance),
-            Self::Radau(method) => method.first_step(system, t, q, v, h_max, tolerance),
+            Self::RungeKutta(method) => method.first_step(system, from, h_max, tolerance),
+            Self::Radau(method) => method.first_step(system, from, h_max, tolerance),
             Self::Gauss(_) => Ok(h_max),
         }
     }
 
-    /// One step from (`t`, `q`, `v`) of at most `h_try` > 0 within `tolerance` (which methods with fixed steps ignore), with
+    /// One step from a state, of at most `h_try` > 0 within `tolerance` (which methods with fixed steps ignore), with
     /// dense output into `out`. The step's result is what `out` has at s = 1.
     ///
     /// # Errors
     /// See [`StepError`].
-    #[expect(clippy::too_many_arguments, reason = "a state and a request")]
     pub fn step<A: Acceleration<T>>(
         &mut self,
         system: &mut A,
-        t: T,
-        q: &[T],
-        v: &[T],
+        from: Start<'_, T>,
         h_try: f64,
         tolerance: Tolerance,
         out: &mut StepPolynomial<T>,
     ) -> Result<Accepted, StepError<A::Error>> {
         match self {
-            Self::RungeKutta(method) => method.step(system, t, q, v, h_try, tolerance, out),
-            Self::Radau(method) => method.step(system, t, q, v, h_try, tolerance, out),
-            Self::Gauss(method) => method.step(system, t, q, v, h_try, out),
+            Self::RungeKutta(method) => method.step(system, from, h_try, tolerance, out),
+            Self::Radau(method) => method.step(system, from, h_try, tolerance, out),
+            Self::Gauss(method) => method.step(system, from, h_try, out),
         }
     }
 }

@@ -36,6 +36,17 @@ pub(crate) use polynomial::{
 pub(crate) use radau::Radau;
 pub(crate) use runge_kutta::RungeKutta;
 
+/// The state from which a step is made.
+#[derive(Clone, Copy, Debug)]
+pub struct Start<'a, T> {
+    /// Time, s.
+    pub t: T,
+    /// Positions.
+    pub q: &'a [T],
+    /// Velocities.
+    pub v: &'a [T],
+}
+
 /// v̇ = a(t, q, v): what Runge–Kutta methods integrate together with q̇ = v.
 pub trait Acceleration<T> {
     /// Why an acceleration could not be had.

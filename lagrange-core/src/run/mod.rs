@@ -42,6 +42,7 @@ mod watches;
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
+use crate::integrate::Start;
 use crate::mode::Mode;
 use crate::modes::domain;
 use crate::modes::facts::{EvaluationPoint, SwitchContext, SwitchFacts};
@@ -116,6 +117,15 @@ impl<T: Scalar> Now<T> {
     /// What `dynamics` holds is of another state or mode.
     fn outdate(&mut self) {
         (self.valued, self.series) = (false, Progress::None);
+    }
+
+    /// The state from which the next step is made.
+    fn start(&self) -> Start<'_, T> {
+        Start {
+            t: self.t,
+            q: &self.state.q,
+            v: &self.state.v,
+        }
     }
 
     /// Where the mode may end, for who decides on the next.

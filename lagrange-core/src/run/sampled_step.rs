@@ -42,17 +42,10 @@ impl<T: Scalar> Run<T> {
         let Some(method) = &mut self.stepper.other else {
             return Ok(Hit::Nothing);
         };
-        let (q, v) = (&self.now.state.q, &self.now.state.v);
+        let (from, tolerance) = (self.now.start(), self.settings.per_step());
         let first = match self.stepper.wanted {
             Some(h) => Ok(h),
-            None => method.first_step(
-                &mut self.dynamics,
-                self.now.t,
-                q,
-                v,
-                longest,
-                self.settings.per_step(),
-            ),
+            None => method.first_step(&mut self.dynamics, from, longest, tolerance),
         };
         if let Ok(h) = first
             && self.slip_may_vanish(h)
@@ -106,17 +99,9 @@ impl<T: Scalar> Run<T> {
         let Some(method) = &mut self.stepper.other else {
             return Ok(h);
         };
-        let (q, v) = (&self.now.state.q, &self.now.state.v);
+        let (from, tolerance) = (self.now.start(), self.settings.per_step());
         let (dynamics, step) = (&mut self.dynamics, &mut self.stepper.step);
-        match method.step(
-            dynamics,
-            self.now.t,
-            q,
-            v,
-            h,
-            self.settings.per_step(),
-            step,
-        ) {
+        match method.step(dynamics, from, h, tolerance, step) {
             Ok(accepted) => {
                 self.recorder.trajectory.work.rejected += accepted.rejected;
                 Ok(accepted.h_next)

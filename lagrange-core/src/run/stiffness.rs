@@ -160,17 +160,9 @@ impl<T: Scalar> Run<T> {
             return false;
         };
         radau.restart();
-        let (q, v) = (&self.now.state.q, &self.now.state.v);
+        let (from, tolerance) = (self.now.start(), self.settings.per_step());
         let (dynamics, step) = (&mut self.dynamics, &mut self.stepper.step);
-        let outcome = radau.step(
-            dynamics,
-            self.now.t,
-            q,
-            v,
-            h,
-            self.settings.per_step(),
-            step,
-        );
+        let outcome = radau.step(dynamics, from, h, tolerance, step);
         // The trial has left other values in their place.
         self.now.outdate();
         outcome.is_ok_and(|accepted| accepted.rejected == 0)

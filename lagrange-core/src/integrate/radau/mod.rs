@@ -16,7 +16,7 @@ mod stages;
 
 use super::control::{Tolerance, error_norm};
 use super::factors::Factors;
-use super::{Acceleration, Accepted, StepError, StepPolynomial};
+use super::{Acceleration, Accepted, Start, StepError, StepPolynomial};
 use crate::arithmetic::Scalar;
 
 const STAGES: usize = 3;
@@ -150,12 +150,11 @@ impl<T: Scalar> Radau<T> {
     pub fn first_step<A: Acceleration<T>>(
         &mut self,
         system: &mut A,
-        t: T,
-        q: &[T],
-        v: &[T],
+        from: Start<'_, T>,
         h_max: f64,
         tolerance: Tolerance,
     ) -> Result<f64, StepError<A::Error>> {
+        let Start { t, q, v } = from;
         let a = &mut self.trial[2];
         system
             .acceleration(t, q, v, a)
@@ -171,23 +170,21 @@ impl<T: Scalar> Radau<T> {
         Ok(h.min(h_max))
     }
 
-    /// One step from (`t`, `q`, `v`) of at most `h_try` > 0, repeated with smaller ones until its error is within
+    /// One step from a state, of at most `h_try` > 0, repeated with smaller ones until its error is within
     /// `tolerance`, with dense output into `out`.
     ///
     /// # Errors
     /// [`StepError::Acceleration`] if the system has no accelerations at the start, or none however small the step;
     /// [`StepError::TooSmall`] if the step size has shrunk to rounding errors of the time.
-    #[expect(clippy::too_many_arguments, reason = "a state and a request")]
     pub fn step<A: Acceleration<T>>(
         &mut self,
         system: &mut A,
-        t: T,
-        q: &[T],
-        v: &[T],
+        from: Start<'_, T>,
         h_try: f64,
         tolerance: Tolerance,
         out: &mut StepPolynomial<T>,
     ) -> Result<Accepted, StepError<A::Error>> {
+        let Start { t, q, v } = from;
         if !(self.end.0 == t && self.end.1[0] == q && self.end.1[1] == v) {
             // The stages no longer extrapolate; the Jacobian is as good as before.
             self.memory.last = None;

@@ -7,7 +7,7 @@ mod dense;
 
 use super::control::{Controller, Tolerance, error_norm};
 use super::tableau::{Estimate, Tableau, Weights};
-use super::{Acceleration, Accepted, Method, StepError, StepPolynomial, hermite};
+use super::{Acceleration, Accepted, Method, Start, StepError, StepPolynomial, hermite};
 use super::{dop853, dopri5, rk4, verner98};
 use crate::arithmetic::Scalar;
 
@@ -101,18 +101,16 @@ impl<T: Scalar> RungeKutta<T> {
     pub fn first_step<A: Acceleration<T>>(
         &mut self,
         system: &mut A,
-        t: T,
-        q: &[T],
-        v: &[T],
+        from: Start<'_, T>,
         h_max: f64,
         tolerance: Tolerance,
     ) -> Result<f64, StepError<A::Error>> {
         if let Some(step) = self.fixed_step {
             return Ok(step.min(h_max));
         }
-        self.begin(system, t, q, v)?;
+        self.begin(system, from)?;
         // What the first step starts with.
-        self.end.t = t;
+        self.end.t = from.t;
         self.end.y.copy_from_slice(&self.start.y);
         let size = 2 * self.coordinates;
         let norm = |x: &[T], y: &[T]| error_norm(&x[..size], &y[..size], &y[..size], tolerance);
@@ -131,7 +129,7 @@ impl<T: Scalar> RungeKutta<T> {
         }
         // In a state that exists nowhere, the first step will tell.
         let end = self.tableau.end;
-        let h = if self.evaluate(system, t + step, end).is_ok() {
+        let h = if self.evaluate(system, from.t + step, end).is_ok() {
             let (slope, probe) = (
                 &self.k[..self.width],
                 &self.k[end * self.width..][..self.width],
@@ -160,29 +158,26 @@ impl<T: Scalar> RungeKutta<T> {
         Ok(h.min(h_max))
     }
 
-    /// One step from (`t`, `q`, `v`) of at most `h_try` > 0, with dense output: [`Self::advance`], then [`Self::interpolate`].
+    /// One step from a state, of at most `h_try` > 0, with dense output: [`Self::advance`], then [`Self::interpolate`].
     ///
     /// The step's result is what `out` has at s = 1.
     ///
     /// # Errors
     /// See [`Self::advance`].
-    #[expect(clippy::too_many_arguments, reason = "a state and a request")]
     pub fn step<A: Acceleration<T>>(
         &mut self,
         system: &mut A,
-        t: T,
-        q: &[T],
-        v: &[T],
+        from: Start<'_, T>,
         h_try: f64,
         tolerance: Tolerance,
         out: &mut StepPolynomial<T>,
     ) -> Result<Accepted, StepError<A::Error>> {
-        let mut accepted = self.advance(system, t, q, v, h_try, tolerance)?;
+        let mut accepted = self.advance(system, from, h_try, tolerance)?;
         accepted.evaluations += self.interpolate(system, out)?;
         Ok(accepted)
     }
 
-    /// One step from (`t`, `q`, `v`) of at most `h_try` > 0, repeated with smaller ones until its error is within `tolerance`.
+    /// One step from a state, of at most `h_try` > 0, repeated with smaller ones until its error is within `tolerance`.
     /// The result is [`Self::end`].
     ///
     /// The first stage is the last one of the step before if the state is the one where that ended.
@@ -193,13 +188,12 @@ impl<T: Scalar> RungeKutta<T> {
     pub fn advance<A: Acceleration<T>>(
         &mut self,
         system: &mut A,
-        t: T,
-        q: &[T],
-        v: &[T],
+        from: Start<'_, T>,
         h_try: f64,
         tolerance: Tolerance,
     ) -> Result<Accepted, StepError<A::Error>> {
-        let mut evaluations = self.begin(system, t, q, v)?;
+        let t = from.t;
+        let mut evaluations = self.begin(system, from)?;
         let mut rejected = 0;
         let mut h = self.fixed_step.map_or(h_try, |step| step.min(h_try));
         let mut obstacle = None;
@@ -254,10 +248,9 @@ impl<T: Scalar> RungeKutta<T> {
     fn begin<A: Acceleration<T>>(
         &mut self,
         system: &mut A,
-        t: T,
-        q: &[T],
-        v: &[T],
+        from: Start<'_, T>,
     ) -> Result<usize, StepError<A::Error>> {
+        let Start { t, q, v } = from;
         let n = self.coordinates;
         let y = &mut self.start.y;
         y[..n].copy_from_slice(q);

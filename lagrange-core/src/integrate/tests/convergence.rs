@@ -1,5 +1,6 @@
 //! Halving the step divides the error by 2^order, for the step's result and for the dense output.
 
+use super::from;
 use super::problems::{Kepler, Pendulum, Problem};
 use crate::integrate::{Method, RungeKutta, StepPolynomial, Tolerance};
 
@@ -27,7 +28,7 @@ fn errors<P: Problem>(
     for i in 0..steps {
         let t = i as f64 * h;
         let accepted = stepper
-            .step(&mut problem, t, &q, &v, h, ANYTHING, &mut step)
+            .step(&mut problem, from(t, &q, &v), h, ANYTHING, &mut step)
             .expect("no obstacle");
         // A step is what time advances by.
         assert!((accepted.h - h).abs() <= f64::EPSILON * until);

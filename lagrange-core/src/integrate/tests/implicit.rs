@@ -2,6 +2,7 @@
 
 use core::f64::consts::TAU;
 
+use super::from;
 use super::problems::{Coefficients, Kepler, Pendulum, Problem, Prothero, convolve};
 use super::runge_kutta::run;
 use crate::integrate::{
@@ -150,12 +151,12 @@ fn a_jacobian_of_the_system_saves_the_differences() {
     let stiffness = 1e6;
     let by_differences = step(&mut |radau, out| {
         let mut system = Prothero { stiffness };
-        let accepted = radau.step(&mut system, 0.0, &[1.0], &[0.0], 0.01, tolerance, out);
+        let accepted = radau.step(&mut system, from(0.0, &[1.0], &[0.0]), 0.01, tolerance, out);
         accepted.expect("regular").evaluations
     });
     let exact = step(&mut |radau, out| {
         let mut system = Exact(Prothero { stiffness });
-        let accepted = radau.step(&mut system, 0.0, &[1.0], &[0.0], 0.01, tolerance, out);
+        let accepted = radau.step(&mut system, from(0.0, &[1.0], &[0.0]), 0.01, tolerance, out);
         accepted.expect("regular").evaluations
     });
     assert_eq!(exact + 2, by_differences);
@@ -183,7 +184,7 @@ fn gauss_keeps_the_energy() {
     for turn in 0..1000 {
         for _ in 0..100 {
             gauss
-                .step(&mut orbit, t, &q, &v, 1.0, &mut out)
+                .step(&mut orbit, from(t, &q, &v), 1.0, &mut out)
                 .expect("regular");
             t = out.time(1.0);
             out.state_into(1.0, &mut q, &mut v);
@@ -206,7 +207,7 @@ fn gauss_with_tiny_steps_is_exact_to_rounding() {
     let mut t = 0.0;
     for _ in 0..10_000 {
         gauss
-            .step(&mut pendulum, t, &q, &v, 1.0, &mut out)
+            .step(&mut pendulum, from(t, &q, &v), 1.0, &mut out)
             .expect("regular");
         t = out.time(1.0);
         out.state_into(1.0, &mut q, &mut v);
@@ -224,9 +225,7 @@ fn too_large_steps_do_not_converge() {
     let mut out = StepPolynomial::new(1, gauss.degree());
     let outcome = gauss.step(
         &mut stiff,
-        0.0,
-        &[1.1],
-        &[0.0],
+        from(0.0, &[1.1], &[0.0]),
         1.0,
         Tolerance::both(1.0),
         &mut out,

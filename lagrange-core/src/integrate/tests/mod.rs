@@ -8,3 +8,10 @@ mod runge_kutta;
 mod tableaus;
 mod taylor;
 mod work;
+
+use super::Start;
+
+/// A step from this state.
+fn from<'a>(t: f64, q: &'a [f64], v: &'a [f64]) -> Start<'a, f64> {
+    Start { t, q, v }
+}

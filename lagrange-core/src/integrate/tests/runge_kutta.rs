@@ -1,5 +1,6 @@
 //! What the driver of the Runge–Kutta methods promises beside accuracy.
 
+use super::from;
 use super::problems::{Falling, Harmonic, Kepler, Problem};
 use crate::integrate::{
     Acceleration, Integrator, Method, ParseMethodError, RungeKutta, StepError, StepPolynomial,
@@ -19,12 +20,18 @@ pub fn run<P: Problem>(problem: &mut P, method: Method, tolerance: Tolerance, un
     let (mut q, mut v) = problem.solution(0.0);
     let mut t = 0.0;
     let mut h = stepper
-        .first_step(problem, t, &q, &v, until, tolerance)
+        .first_step(problem, from(t, &q, &v), until, tolerance)
         .expect("the start is regular");
     let mut run = Run::default();
     while t < until {
         let accepted = stepper
-            .step(problem, t, &q, &v, h.min(until - t), tolerance, &mut step)
+            .step(
+                problem,
+                from(t, &q, &v),
+                h.min(until - t),
+                tolerance,
+                &mut step,
+            )
             .expect("regular");
         run.steps += 1;
         run.rejected += accepted.rejected;
@@ -110,7 +117,13 @@ fn the_polynomial_ends_where_the_step_ends() {
         for i in 0..20 {
             let t = 0.3 * i as f64;
             stepper
-                .step(&mut orbit, t, &q, &v, 0.3, Tolerance::both(1.0), &mut step)
+                .step(
+                    &mut orbit,
+                    from(t, &q, &v),
+                    0.3,
+                    Tolerance::both(1.0),
+                    &mut step,
+                )
                 .expect("regular");
             assert_eq!((step.position(0, 0.0), step.velocity(1, 0.0)), (q[0], v[1]));
             step.state_into(1.0, &mut q, &mut v);
@@ -127,7 +140,7 @@ fn the_last_stage_is_used_again_only_where_it_belongs() {
     let (mut q, mut v) = orbit.solution(0.0);
     let mut cost = |stepper: &mut RungeKutta<f64>, t, q: &[f64], v: &[f64], step: &mut _| {
         stepper
-            .step(&mut orbit, t, q, v, 1e-3, Tolerance::both(1.0), step)
+            .step(&mut orbit, from(t, q, v), 1e-3, Tolerance::both(1.0), step)
             .expect("regular")
             .evaluations
     };
@@ -194,7 +207,7 @@ fn obstacle<A: Acceleration<f64>>(
     let (mut t, mut h) = (0.0, 0.1);
     let (mut q, mut v) = ([q], [v]);
     for _ in 0..100_000 {
-        match stepper.step(system, t, &q, &v, h, Tolerance::both(1e-9), &mut step) {
+        match stepper.step(system, from(t, &q, &v), h, Tolerance::both(1e-9), &mut step) {
             Ok(accepted) => {
                 (t, h) = (step.time(1.0), accepted.h_next);
                 step.state_into(1.0, &mut q, &mut v);
