@@ -24,13 +24,15 @@ const ROOT: f64 = 1e-9;
 const MOST_CORRECTIONS: usize = 12;
 
 /// Composite guards are also looked for at these parts of a step,
-const WITHIN: [f64; 3] = [0.25, 0.5, 0.75];
+const WITHIN: [f64; 7] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875];
 
 /// and watched from there on if they have come this near to zero, relative.
 const NEARBY: f64 = 0.5;
 
-/// The last terms of forces in a step are no larger than this share of the first ones.
+/// The last terms of forces in a step are no larger than this share of the first ones,
 const LAST_TERMS: f64 = 1e-6;
+/// and those of this order than this share: what turns by a radian is looked at four times.
+const TURNING: (usize, f64) = (8, 1e-2);
 
 impl<T: Scalar> Run<T> {
     /// Looks at the forces at the last value of the dynamics, in the mode of the run; whether other guards decide than before.
@@ -54,13 +56,15 @@ impl<T: Scalar> Run<T> {
         }
         // Loads that are nothing now may be large again.
         sizes[0] = self.switcher.redundant.largest_force(sizes[0]);
-        let until = |last: usize| {
-            let share = |first: usize| LAST_TERMS * sizes[first] / sizes[last];
+        let until = |last: usize, terms: f64| {
+            let share = |first: usize| terms * sizes[first] / sizes[last];
             let times = (0..=last / 2).map(|first| share(first).powf(1.0 / (last - first) as f64));
             times.fold(0.0, f64::max)
         };
         // Every other term of a vibration is zero.
-        let longest = until(order).min(until(order - 1));
+        let both = |order: usize, terms| until(order, terms).min(until(order - 1, terms));
+        let (turning, terms) = TURNING;
+        let longest = both(order, LAST_TERMS).min(both(turning.min(order), terms));
         if longest > 0.0 {
             longest
         } else {
@@ -248,7 +252,7 @@ impl<T: Scalar> Run<T> {
     /// Locates where between these parts of the step forces cease to keep all bounds, and adds the composite guard that says so; `dynamics` and
     /// `scratch` end at part `end` again. Not found: they do not keep them at the first part either.
     fn locates_a_joint(&mut self, [mut before, mut after]: [f64; 2], end: f64) -> bool {
-        let mut critical_at = |run: &mut Self, part: f64, border: f64| {
+        let critical_at = |run: &mut Self, part: f64, border: f64| {
             run.evaluate_end(part).ok()?;
             run.switcher.redundant.follow(&mut run.dynamics);
             run.switcher.redundant.critical(border)

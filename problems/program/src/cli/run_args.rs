@@ -115,7 +115,7 @@ impl Motion {
         for (name, value) in &self.set {
             add("--set", format!("{name}={}", number(*value)));
         }
-        for start in &self.from {
+        if let Some(start) = &self.from {
             add("--from", start.clone());
         }
         for (name, value) in &self.start {
