@@ -49,7 +49,9 @@ pub fn begin<T: Scalar>(
     if !project {
         refuse_other_velocities(dynamics, rate)?;
     }
-    if settle(dynamics, t, state, tolerance, status)? {
+    let left = project.then(|| state.clone());
+    let before = left.as_ref().unwrap_or(given);
+    if settle(dynamics, t, before, state, tolerance, status)? {
         if !project {
             let positions = [&given.q[..], &state.q];
             refuse_other_positions(dynamics, position, positions, tolerance.strictness())?;
@@ -60,23 +62,23 @@ pub fn begin<T: Scalar>(
     Ok(())
 }
 
-/// Moves a state onto what holds in its mode; whether it had to. Both sides of a slot that is narrower than what counts
+/// Moves a state, which is as `before`, onto what holds in its mode; whether it had to. Both sides of a slot that is narrower than what counts
 /// as zero cannot be closed at once: contacts above their surface stay open where they cannot be closed together with those before them.
 fn settle<T: Scalar>(
     dynamics: &mut Dynamics<T>,
     t: T,
+    before: &State<T>,
     state: &mut State<T>,
     tolerance: Tolerance<'_>,
     status: &mut ConstraintStatus,
 ) -> Result<bool, Error> {
-    let given = state.clone();
     let error = match project_onto(&status.mode, dynamics, t, state) {
         Err(error) if status.above().next().is_some() => error,
         outcome => return outcome,
     };
     let mut apart: Vec<usize> = status.above().collect();
     let mut without = |apart: &[usize], state: &mut State<T>| {
-        state.clone_from(&given);
+        state.clone_from(before);
         status.apart.clear();
         status.apart.extend_from_slice(apart);
         status.look(dynamics, t, state, tolerance);

@@ -163,9 +163,20 @@ impl Display for Diagnostics {
 
 /// Replaces `{0}`, `{1}`, … in a template.
 fn fill(template: &str, arguments: &[&dyn Display]) -> String {
-    let mut text = template.to_string();
-    for (i, argument) in arguments.iter().enumerate() {
-        text = text.replace(&format!("{{{i}}}"), &argument.to_string());
+    let mut parts = template.split('{');
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let blank = part
+            .split_once('}')
+            .and_then(|(index, rest)| Some((index.parse::<usize>().ok()?, rest)));
+        match blank {
+            Some((index, rest)) => {
+                debug_assert!(index < arguments.len(), "nothing for a blank: {template}");
+                text.extend(arguments.get(index).map(ToString::to_string));
+                text.push_str(rest);
+            }
+            None => text.extend(["{", part]),
+        }
     }
     text
 }

@@ -256,7 +256,9 @@ impl Elaboration<'_> {
             (None, None) => Some(first),
             (Some(element), Some(length)) => Some(first + self.position(element, 0, length)?),
             (None, Some(length)) => {
-                self.sink.report(Code::ListForScalar, name, &[&length]);
+                let hint = format!("name one of them, `{}[0]`", name.text);
+                self.sink
+                    .report(Code::ListForScalar, name, &[&length, &hint]);
                 None
             }
             (Some(element), None) => {

@@ -173,8 +173,9 @@ impl Elaboration<'_> {
                 None
             }
             (Value::Scalar(_), Value::List(elements)) => {
+                let hint = "a single value and a list do not add; write the single value as a list, `[a, a]`";
                 self.sink
-                    .report(Code::ListForScalar, at, &[&elements.len()]);
+                    .report(Code::ListForScalar, at, &[&elements.len(), &hint]);
                 None
             }
         }
