@@ -59,6 +59,8 @@ pub(super) struct Rank {
     inverse_roots: Vec<f64>,
     /// and what they were when `largest` was begun.
     lighter: Vec<f64>,
+    /// Which rows were held aside then: they follow from the others.
+    aside: Vec<bool>,
     scaled: Vec<f64>,
 }
 
@@ -83,6 +85,7 @@ impl Rank {
             masses: vec![0.0; n],
             inverse_roots: vec![1.0; n],
             lighter: vec![0.0; n],
+            aside: vec![false; m],
             scaled: vec![0.0; m * n],
             rows,
         }
@@ -140,11 +143,17 @@ impl Rank {
         }
         self.scaled.fill(0.0);
         let m = self.rows.len();
-        // Rows that are held aside follow from the others.
-        let rows = self.rows.iter().enumerate();
-        for (k, &row) in rows.filter(|(_, row)| !dynamics.holds_aside(**row)) {
-            for &(j, place) in d.rows[row].jacobian {
-                self.scaled[k * n + j] = number(place) * self.inverse_roots[j];
+        for (k, &row) in self.rows.iter().enumerate() {
+            let aside = dynamics.holds_aside(row);
+            if aside != self.aside[k] {
+                // The pivots are those of other rows now: a body that rests on a contact and by friction needs no rod.
+                self.aside[k] = aside;
+                self.largest.fill(0.0);
+            }
+            if !aside {
+                for &(j, place) in d.rows[row].jacobian {
+                    self.scaled[k * n + j] = number(place) * self.inverse_roots[j];
+                }
             }
         }
         for i in 0..m {
