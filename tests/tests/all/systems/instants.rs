@@ -119,3 +119,35 @@ fn a_mark_is_logged_where_it_passes_zero_and_not_where_it_begins() {
         agree("time", event.time, 0.5, 1e-15);
     }
 }
+
+/// A spring that is pulled ever more.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y),
+    kinetic = der(y)^2/2,
+    potential = y^2,
+    force(pull: y = k * t),
+    stop(back: y <= 0),
+    start(rest),
+)]
+struct Pulled {
+    k: f64,
+}
+
+/// y = k/2 (t − sin(√2 t)/√2) begins at the zero of the stop with t³ and never returns.
+#[test]
+fn what_begins_at_a_stop_with_its_cube_is_not_stopped() {
+    for k in [0.3, 0.9, 1.3, 7.0] {
+        let pulled = Pulled { k };
+        for method in ["auto", "dop853", "dopri5", "verner98", "radau5"] {
+            for tolerance in [1e-6, 1e-9, 1e-10, 1e-12] {
+                let run = run(&pulled, method, tolerance, pulled.at(Pulled::REST), 5.0);
+                let what = format!("{k} by {method} at {tolerance:e}: {:?}", words(&run));
+                assert!(run.events().is_empty(), "{what}");
+                let root = 2.0_f64.sqrt();
+                let y = k / 2.0 * (5.0 - (root * 5.0).sin() / root);
+                agree(&what, run.final_state().q[0], y, 300.0 * tolerance);
+            }
+        }
+    }
+}

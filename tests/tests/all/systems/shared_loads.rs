@@ -521,3 +521,99 @@ fn what_reads_a_shared_force_reads_the_one_reported() {
         }
     }
 }
+
+/// A plate leans on a wall and turns freely; one friction is along its heading, where it is pushed, and one across.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, p),
+    kinetic = (der(x)^2 + der(y)^2)/2 + der(p)^2/2,
+    potential = -press * x,
+    contact(wall: x <= 0),
+    force(push: 2 along der(x)*cos(p) + der(y)*sin(p)),
+    friction(across: slip = der(y)*cos(p) - der(x)*sin(p), limit = 2),
+    friction(along_it: slip = der(x)*cos(p) + der(y)*sin(p), limit = 3/2),
+    start(leans: p = 1/5, der(p) = rate),
+)]
+struct Plate {
+    press: f64,
+    rate: f64,
+}
+
+/// It is held as long as 2 cos p ≥ sin p/2, whatever the forces on it are, which are open: their directions turn with the plate. Then
+/// ÿ = sin p/2 − 2 |cos p|, here until after p = π/2.
+#[test]
+fn frictions_whose_directions_turn_hold_together_as_long_as_they_can() {
+    let begin = 4.0_f64.atan();
+    let (side, up) = (begin.cos(), begin.sin());
+    let end = 1.8;
+    for rate in [0.6, 1.0, 1.7] {
+        let plate = Plate { press: 3.0, rate };
+        let upright = PI / 2.0;
+        // ω ẏ and ω² y by p.
+        let speed = 0.5 * side - 2.0 + 2.0 * up;
+        let first = -0.5 * (1.0 - up) + (0.5 * side + 2.0 * up) * (upright - begin) - 2.0 * side;
+        let second = (speed - 2.0) * (end - upright) - 0.5 * (end.sin() - 1.0) - 2.0 * end.cos();
+        for by in ["auto", "dop853", "verner98", "dopri5", "radau5"]
+            .iter()
+            .flat_map(|m| [1e-6, 1e-9, 1e-12].map(|x| (*m, x)))
+        {
+            let what = format!("{rate} rad/s by {by:?}");
+            let run = run_by(&plate, by, plate.at(Plate::LEANS), (end - 0.2) / rate);
+            let bound = (100.0 * by.1).max(1e-11);
+            for item in ["across", "along_it"] {
+                let slips = event(&run, item, "slips").time;
+                agree(&what, slips, (begin - 0.2) / rate, bound);
+            }
+            let y = (first + second) / (rate * rate);
+            agree(&what, run.final_state().q[1], y, bound);
+            certified(&what, &run);
+        }
+    }
+}
+
+/// A bead on a circle comes down onto a stop, and rests there: it is held by the circle, the stop and by friction, two of them would do.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, h),
+    kinetic = mass/2 * (der(x)^2 + der(h)^2),
+    potential = mass * gravity * h,
+    constraint(circle: x^2 + h^2 == 1),
+    friction(grip: slip = der(x), limit = (4, holds)),
+    contact(rest: h >= low),
+    force(shake: h = sin(5*t)),
+    start(above: x = 3/5, h = 4/5),
+)]
+struct Bead {
+    mass: f64,
+    gravity: f64,
+    holds: f64,
+    low: f64,
+}
+
+/// Steps at rest are as long as those of a motion that begins there, and the energy is lost in the impact.
+#[test]
+fn what_rests_on_more_than_it_needs_does_not_lose_rank() {
+    for (mass, holds, low) in [(1.0, 0.4, 0.7), (1.0, 1.0, 0.6), (2.0, 0.1, 0.72)] {
+        let bead = Bead {
+            mass,
+            gravity: 9.81,
+            holds,
+            low,
+        };
+        for by in [
+            ("auto", 1e-9),
+            ("auto", 1e-12),
+            ("dopri5", 1e-9),
+            ("radau5", 1e-9),
+        ] {
+            let what = format!("{mass} {holds} {low} by {by:?}");
+            let run = run_by(&bead, by, bead.at(Bead::ABOVE), 2.0);
+            let end = run.final_state();
+            agree(&what, end.q[1], low, 1e-12);
+            agree(&what, end.q[0], (1.0 - low * low).sqrt(), 1e-9);
+            agree(&what, end.v[0], 0.0, 1e-12);
+            assert!(run.work().steps < 300, "{what}: {} steps", run.work().steps);
+            certified(&what, &run);
+        }
+    }
+}
