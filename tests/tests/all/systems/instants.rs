@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{Random, agree, run, words};
+use lagrange_tests::{Random, agree, run, run_by, words};
 
 /// A ball between floor and ceiling.
 #[derive(Lagrangian, Clone, Debug)]
@@ -141,7 +141,7 @@ fn what_begins_at_a_stop_with_its_cube_is_not_stopped() {
         let pulled = Pulled { k };
         for method in ["auto", "dop853", "dopri5", "verner98", "radau5"] {
             for tolerance in [1e-6, 1e-9, 1e-10, 1e-12] {
-                let run = run(&pulled, method, tolerance, pulled.at(Pulled::REST), 5.0);
+                let run = run_by(&pulled, (method, tolerance), pulled.at(Pulled::REST), 5.0);
                 let what = format!("{k} by {method} at {tolerance:e}: {:?}", words(&run));
                 assert!(run.events().is_empty(), "{what}");
                 let root = 2.0_f64.sqrt();
