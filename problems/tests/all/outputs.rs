@@ -305,3 +305,47 @@ fn a_scene_file_says_where_everything_goes() {
     run(&folder, &["b.toml", "--output", "c.jsonl"]);
     assert!(folder.join("c.jsonl").exists() && !folder.join("a.csv").exists());
 }
+
+/// Outputs may be called as coordinates and energies are; columns have one name each, and keep their numbers.
+#[test]
+fn no_two_columns_have_one_name() {
+    let folder = folder("columns");
+    let declared = "coordinates(x), kinetic = der(x)^2/2, potential = 2*x^2, start(s: x = 1), until = 1,\n\
+                    observe(x, kinetic = 7*x, mode = 3*x, far = 2*x)\n";
+    fs::write(folder.join("same.lagrange"), declared).expect("a file");
+    let outputs = [
+        "--output",
+        "run.csv",
+        "--output",
+        "run.parquet",
+        "--output",
+        "run.jsonl",
+    ];
+    run(
+        &folder,
+        &[&["same.lagrange", "--samples", "5"], &outputs[..]].concat(),
+    );
+    let text = fs::read_to_string(folder.join("run.csv")).expect("the table");
+    let header: Vec<&str> = text.lines().next().unwrap_or_default().split(',').collect();
+    for (i, column) in header.iter().enumerate() {
+        assert!(!header[..i].contains(column), "{header:?}");
+    }
+    let table = csv_rows(&folder.join("run.csv"));
+    assert!(table == parquet_rows(&folder.join("run.parquet")));
+    let number = |row: &Row, name: &str| row[name].as_f64().expect("a number");
+    let lines = lines(&folder.join("run.jsonl"));
+    let samples = lines.iter().filter(|line| line["type"] == "sample");
+    let rows = table.iter().filter(|row| !row.contains_key("event"));
+    let mut compared = 0;
+    for (sample, row) in samples.zip(rows) {
+        compared += 1;
+        let x = number(row, "x");
+        assert_eq!(number(row, "output(x)"), x);
+        assert_eq!(number(row, "output(kinetic)"), 7.0 * x);
+        assert_eq!(number(row, "output(mode)"), 3.0 * x);
+        assert_eq!(number(row, "far"), 2.0 * x);
+        assert_eq!(sample["output(kinetic)"].as_f64(), Some(7.0 * x));
+        assert_eq!(sample["x"].as_f64(), Some(x));
+    }
+    assert!(compared > 3);
+}

@@ -81,8 +81,19 @@ impl<'a> Table<'a> {
         columns.extend(["kinetic", "potential"].map(|name| maybe(name, energy)));
         let work = |entry: &Entry| maybe(&format!("work({})", work_name(entry)), energy);
         columns.extend(self.works.iter().map(work));
-        columns.extend(d.observes.iter().map(|o| maybe(o.name, o.unit)));
-        columns.push(column("mode", "", Kind::Text));
+        let mode = column("mode", "", Kind::Text);
+        // No two columns have one name: an output may be called as a coordinate or an energy is.
+        let mut taken: Vec<String> = columns.iter().map(|column| column.name.clone()).collect();
+        taken.push(mode.name.clone());
+        columns.extend(
+            d.observes
+                .iter()
+                .map(|o| match taken.iter().any(|name| name == o.name) {
+                    true => maybe(&format!("output({})", o.name), o.unit),
+                    false => maybe(o.name, o.unit),
+                }),
+        );
+        columns.push(mode);
         columns
     }
 
