@@ -166,7 +166,7 @@ fn a_target_is_answered_with_a_command() {
     assert_eq!(command[..2], ["run", "mass-on-shell"]);
     assert!(says(&command).contains("floor stop"));
     // Of the run that was measured, not of the scene as it stands.
-    let asked = "--set mass=2 --start theta=0.3 --without sliding --until 0.5";
+    let asked = "--set mass=2 --without floor --until 0.5";
     let asked: Vec<&str> = asked.split(' ').collect();
     let answer = table("mass-on-shell", &[&asked, &arguments[..]].concat());
     let command = answer.lines().last().expect("a command").split(' ');
