@@ -23,7 +23,7 @@ const ROOT: f64 = 1e-9;
 /// So often are the composite guards of one step found anew.
 const MOST_CORRECTIONS: usize = 12;
 
-/// Composite guards are also looked for at these parts of a step,
+/// Composite guards are also looked for at these parts of a step, at the second and each other one where the directions of forces do not turn,
 const WITHIN: [f64; 7] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875];
 
 /// and watched from there on if they have come this near to zero, relative.
@@ -63,13 +63,23 @@ impl<T: Scalar> Run<T> {
         };
         // Every other term of a vibration is zero.
         let both = |order: usize, terms| until(order, terms).min(until(order - 1, terms));
-        let (turning, terms) = TURNING;
-        let longest = both(order, LAST_TERMS).min(both(turning.min(order), terms));
+        let mut longest = both(order, LAST_TERMS);
+        if self.directions_turn() {
+            let (turning, terms) = TURNING;
+            longest = longest.min(both(turning.min(order), terms));
+        }
         if longest > 0.0 {
             longest
         } else {
             f64::INFINITY
         }
+    }
+
+    /// Whether forces act in directions that change with the motion, so that what is open in them cancels otherwise from instant to instant.
+    fn directions_turn(&self) -> bool {
+        let rows = self.description().rows;
+        let mut acting = self.dynamics.acting_rows().iter();
+        acting.any(|&row| !rows[row].is_constant())
     }
 
     /// After a switch: guards, and the forces to be logged.
@@ -207,7 +217,12 @@ impl<T: Scalar> Run<T> {
     /// bounds.
     fn finds_joints_within(&mut self, end: f64, last_kept: &mut f64) -> bool {
         let mut found = false;
-        for part in WITHIN.map(|part| part * end) {
+        let (first, each) = match self.directions_turn() {
+            true => (0, 1),
+            false => (1, 2),
+        };
+        for part in WITHIN.into_iter().skip(first).step_by(each) {
+            let part = part * end;
             if self.evaluate_end(part).is_err() {
                 continue;
             }
