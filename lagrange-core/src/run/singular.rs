@@ -59,8 +59,10 @@ pub(super) struct Rank {
     inverse_roots: Vec<f64>,
     /// and what they were when `largest` was begun.
     lighter: Vec<f64>,
-    /// Which rows were held aside then: they follow from the others.
+    /// Which rows were held aside at the last look: they follow from the others,
     aside: Vec<bool>,
+    /// and how many rows acted.
+    acting: usize,
     scaled: Vec<f64>,
 }
 
@@ -86,6 +88,7 @@ impl Rank {
             inverse_roots: vec![1.0; n],
             lighter: vec![0.0; n],
             aside: vec![false; m],
+            acting: 0,
             scaled: vec![0.0; m * n],
             rows,
         }
@@ -143,13 +146,16 @@ impl Rank {
         }
         self.scaled.fill(0.0);
         let m = self.rows.len();
+        let acting = dynamics.acting_rows().len();
+        let switched = acting != self.acting;
+        self.acting = acting;
         for (k, &row) in self.rows.iter().enumerate() {
             let aside = dynamics.holds_aside(row);
-            if aside != self.aside[k] {
-                // The pivots are those of other rows now: a body that rests on a contact and by friction needs no rod.
-                self.aside[k] = aside;
+            if aside != self.aside[k] && switched {
+                // A body that rests on a contact and by friction needs no rod: the pivots are those of other rows now.
                 self.largest.fill(0.0);
             }
+            self.aside[k] = aside;
             if !aside {
                 for &(j, place) in d.rows[row].jacobian {
                     self.scaled[k * n + j] = number(place) * self.inverse_roots[j];
