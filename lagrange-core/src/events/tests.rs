@@ -276,6 +276,7 @@ fn what_is_not_finite_has_no_roots() {
             let mut c = [-0.25, 1.0, 0.5, -2.0, 1.0];
             c[place] = bad;
             assert!(places(&c).is_empty());
+            assert_eq!(find_root(&c, ControlFlow::Break), None);
         }
     }
 }

@@ -88,13 +88,10 @@ fn settle<T: Scalar>(
         return Err(error);
     }
     for contact in apart.clone() {
-        let closed = apart
-            .iter()
-            .copied()
-            .filter(|&c| c != contact)
-            .collect::<Vec<_>>();
-        if without(&closed, state).is_ok() {
-            apart = closed;
+        let others = apart.iter().copied().filter(|&c| c != contact);
+        let others: Vec<usize> = others.collect();
+        if without(&others, state).is_ok() {
+            apart = others;
         }
     }
     without(&apart, state).map(|_| true)

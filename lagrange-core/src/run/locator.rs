@@ -5,7 +5,7 @@ use super::guard_polynomials::{CLEAR, GuardPolynomials};
 use super::hit::Hit;
 use super::region::is_edge_in_flight;
 use super::spatial_slip::Rest;
-use super::watches::RESOLUTION;
+use super::watches::{RESOLUTION, leading};
 use crate::arithmetic::{Scalar, epsilon};
 use crate::events::{Direction, deflate, find_root};
 use crate::integrate::{polynomial_derivative as slope, polynomial_value as value};
@@ -284,10 +284,4 @@ fn hides_its_start(guard: Guard, curve: &[f64]) -> bool {
     let clear = leading(curve, CLEAR).unwrap_or(begin);
     let falls = curve[begin..=clear.max(begin)].iter().any(|c| *c < 0.0);
     curve[begin] > 0.0 && clear > begin && (falls || clear >= late)
-}
-
-/// The first coefficient that can be told from 0 by numbers this much smaller than all together.
-fn leading(curve: &[f64], resolution: f64) -> Option<usize> {
-    let noise = resolution * curve.iter().map(|c| c.abs()).sum::<f64>();
-    curve.iter().position(|c| c.abs() > noise)
 }

@@ -143,8 +143,7 @@ impl<T: Scalar> Run<T> {
         let composites = &mut self.locator.polynomials.composites;
         match (fallen, critical, value) {
             (None, Some(composite), Some(value)) if value < -ROOT => {
-                let known = self.locator.refuted.iter();
-                match looked > 0.0 && known.into_iter().any(|known| known.is_like(&composite)) {
+                match looked > 0.0 && is_like_one_of(&self.locator.refuted, &composite) {
                     true => again |= self.locates_a_joint([last_kept, looked], looked),
                     false => {
                         composites.push(composite);
@@ -239,8 +238,7 @@ impl<T: Scalar> Run<T> {
             match known.position(|known| known.is_like(&composite)) {
                 None => {
                     // Where directions of friction turn, what is open cancels at one instant only: the root of such a guard may be none.
-                    let mut refuted = self.locator.refuted.iter();
-                    let refuted = refuted.any(|refuted| refuted.is_like(&composite));
+                    let refuted = is_like_one_of(&self.locator.refuted, &composite);
                     if refuted && falls {
                         return self.locates_a_joint([*last_kept, part], end);
                     }
@@ -344,4 +342,8 @@ impl<T: Scalar> Run<T> {
         let reading = Reading::Values(&self.dynamics);
         composite::value(Guard::Composite(0), composites, &self.now.mode, &reading)
     }
+}
+
+fn is_like_one_of(known: &[CompositeGuard], composite: &CompositeGuard) -> bool {
+    known.iter().any(|known| known.is_like(composite))
 }

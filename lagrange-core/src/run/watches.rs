@@ -317,11 +317,16 @@ fn is_zero(curve: &[f64], s: f64, now: f64, resolution: f64) -> bool {
     !far && now.abs() <= (RESOLUTION * size).max(resolution * slope(curve, s).abs())
 }
 
+/// The first coefficient that can be told from 0 by numbers this much smaller than all together.
+pub(super) fn leading(curve: &[f64], resolution: f64) -> Option<usize> {
+    let noise = resolution * curve.iter().map(|c| c.abs()).sum::<f64>();
+    curve.iter().position(|c| c.abs() > noise)
+}
+
 /// The part of a step after which a curve that begins with zero can be told from it, by the first of its terms that is no rounding.
 fn rises_from_rounding(curve: &[f64]) -> f64 {
     let noise = RESOLUTION * curve.iter().map(|c| c.abs()).sum::<f64>();
-    let first = curve.iter().position(|c| c.abs() > noise);
-    match first {
+    match leading(curve, RESOLUTION) {
         Some(order) if order > 0 => (noise / curve[order].abs()).powf(1.0 / order as f64),
         _ => 0.0,
     }

@@ -85,6 +85,16 @@ const SCENES: [&str; 5] = [
     "kepler",
 ];
 
+/// Files of all formats that have a row for each sample.
+const ALL: [&str; 6] = [
+    "--output",
+    "run.csv",
+    "--output",
+    "run.parquet",
+    "--output",
+    "run.jsonl",
+];
+
 /// Parquet has them in groups, of which each column has levels of its own.
 #[test]
 fn very_many_rows_are_the_same_in_csv_and_parquet() {
@@ -102,16 +112,8 @@ fn very_many_rows_are_the_same_in_csv_and_parquet() {
 fn every_format_says_the_same() {
     let folder = folder("formats");
     for scene in SCENES {
-        let outputs = [
-            "--output",
-            "run.csv",
-            "--output",
-            "run.parquet",
-            "--output",
-            "run.jsonl",
-        ];
         let arguments = [scene, "--samples", "50", "--ledger"];
-        run(&folder, &[&arguments[..], &outputs].concat());
+        run(&folder, &[&arguments[..], &ALL].concat());
         let table = csv_rows(&folder.join("run.csv"));
         assert_eq!(table, parquet_rows(&folder.join("run.parquet")), "{scene}");
         let lines = lines(&folder.join("run.jsonl"));
@@ -313,17 +315,9 @@ fn no_two_columns_have_one_name() {
     let declared = "coordinates(x), kinetic = der(x)^2/2, potential = 2*x^2, start(s: x = 1), until = 1,\n\
                     observe(x, kinetic = 7*x, mode = 3*x, far = 2*x)\n";
     fs::write(folder.join("same.lagrange"), declared).expect("a file");
-    let outputs = [
-        "--output",
-        "run.csv",
-        "--output",
-        "run.parquet",
-        "--output",
-        "run.jsonl",
-    ];
     run(
         &folder,
-        &[&["same.lagrange", "--samples", "5"], &outputs[..]].concat(),
+        &[&["same.lagrange", "--samples", "5"], &ALL[..]].concat(),
     );
     let text = fs::read_to_string(folder.join("run.csv")).expect("the table");
     let header: Vec<&str> = text.lines().next().unwrap_or_default().split(',').collect();

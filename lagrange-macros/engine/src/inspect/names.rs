@@ -223,10 +223,9 @@ fn declared(declaration: &Declaration, system: &System) -> SortedMap<String, Let
     taken.push(Letter::new("t"));
     let mut declared = SortedMap::new();
     let mut give = |name: &str, letter: Letter| {
-        let mut free = [letter, Letter::new(name)]
-            .into_iter()
-            .find(|letter| !taken.iter().any(|other| other.looks_like(letter)));
-        let letter = free.take().unwrap_or_else(|| Letter::of(name, ""));
+        let free = |letter: &Letter| !taken.iter().any(|other| other.looks_like(letter));
+        let mut choices = [letter, Letter::new(name)].into_iter();
+        let letter = choices.find(free).unwrap_or_else(|| Letter::of(name, ""));
         taken.push(letter.clone());
         declared.insert(name.to_owned(), letter);
     };
