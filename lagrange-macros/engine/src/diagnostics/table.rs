@@ -83,6 +83,7 @@ table! {
     HandleClash "E208" "`{0}` and `{1}` become one constant, `{2}`" "names of coordinates and items become constants in capitals: choose another";
 
     ConstantOfSystems "E209" "`{0}` becomes the constant `{1}`, which every system has already" "choose another name";
+    NoField "E210" "`{0}` cannot be the name of a parameter" "no field of a struct of Rust can have it, and the file can be exported to one: choose another name";
 
     ArgumentCount "E301" "`{0}` takes {1}, not {2}" "";
     ListForScalar "E302" "a list of {0} where a single value is expected" "{1}";

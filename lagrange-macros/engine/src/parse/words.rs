@@ -44,6 +44,9 @@ pub const KEYWORDS: &[&str] = &[
 /// Words that begin an item of a file alone.
 pub(super) const FILE_KEYWORDS: [&str; 2] = ["parameters", "until"];
 
+/// Words that Rust does not take as a name of a field even behind `r#`.
+pub(super) const NO_FIELDS: [&str; 5] = ["_", "self", "Self", "super", "crate"];
+
 /// Whether the word begins an item, of a struct or of a file.
 pub(super) fn is_keyword(word: &str) -> bool {
     KEYWORDS.contains(&word) || FILE_KEYWORDS.contains(&word)

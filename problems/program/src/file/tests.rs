@@ -99,6 +99,14 @@ fn what_only_a_file_has_is_checked() {
             "1:19: `a` is already the name of a parameter",
         ),
         (
+            format!("parameters(mass = 1, self = 1), {rest}"),
+            "1:22: `self` cannot be the name of a parameter; no field of a struct of Rust can have it",
+        ),
+        (
+            format!("parameters(_ = 1), {rest}"),
+            "1:12: `_` cannot be the name of a parameter",
+        ),
+        (
             format!("parameters(a[9999999] = 1), {rest}"),
             "1:12: 9999999 elements are too many",
         ),

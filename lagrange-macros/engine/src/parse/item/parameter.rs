@@ -5,6 +5,7 @@ use super::super::cursor::Cursor;
 use super::super::expression::whole;
 use super::super::number::number;
 use super::super::structure;
+use super::super::words::NO_FIELDS;
 use super::quantity::every;
 use super::{once, text};
 use crate::ast::{Expr, ExprKind, Field, Name, Unit};
@@ -60,6 +61,9 @@ fn parameter(part: &mut Cursor, sink: &mut Diagnostics) -> Option<(Field, Expr)>
         _ => "the name of a parameter",
     };
     let name = part.name(name, sink)?;
+    if NO_FIELDS.contains(&name.text.as_str()) {
+        sink.report(Code::NoField, &name, &[&name.text]);
+    }
     let length = match part.take_group(Delimiter::Bracket) {
         None => None,
         Some(group) => Some(length(&mut part.inside(&group, sink)?, sink)?),
