@@ -34,6 +34,10 @@ fn every_command_takes_a_file() {
     let file = "pendulum.lagrange";
     for (arguments, expected) in [
         (&["list", file][..], "released, pushed"),
+        (
+            &["list", file],
+            "gravity = 9.81    m/s²   Gravitational acceleration.",
+        ),
         (&["run", file, "--from", "pushed"], "lowest mark"),
         (
             &["run", file, "--without", "bearing", "--save", "free.toml"],

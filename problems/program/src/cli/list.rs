@@ -5,6 +5,7 @@ use super::{Trouble, print};
 use crate::catalogue::Catalogue;
 use crate::scene::Scene;
 use clap::Args;
+use lagrange_core::system::Parameter;
 use std::io::{self, Write};
 
 /// List the scenes, or everything that one of them can be given.
@@ -42,19 +43,19 @@ fn one(scene: &dyn Scene, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "  {}", line.trim_end())?;
     }
     writeln!(out, "\nparameters (--set name=value)")?;
-    let width = description
-        .parameters
-        .iter()
-        .map(|p| p.name.len())
-        .max()
-        .unwrap_or(0);
+    let widest = |text: fn(&Parameter) -> &str| {
+        let parameters = description.parameters.iter();
+        let widths = parameters.map(|parameter| text(parameter).chars().count());
+        widths.max().unwrap_or(0)
+    };
+    let (width, units) = (widest(|p| p.name), widest(|p| p.unit));
     for (parameter, default) in description.parameters.iter().zip(scene.defaults()) {
-        let mut lines = parameter.documentation.trim().lines();
-        let said = lines.next().unwrap_or(parameter.unit);
+        let said = parameter.documentation.trim().lines().next();
         let line = format!(
-            "  {:width$} = {default:<6}  {}",
+            "  {:width$} = {default:<6}  {:units$}  {}",
             parameter.name,
-            said.trim()
+            parameter.unit,
+            said.unwrap_or_default().trim()
         );
         writeln!(out, "{}", line.trim_end())?;
     }
