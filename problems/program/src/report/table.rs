@@ -7,6 +7,7 @@ use super::telling;
 use super::words::{FEW, MANY, brief, changed};
 use crate::notation::{is_angle, symbol};
 use crate::outcome::{Force, Outcome, Sample, forces};
+use crate::quantity::Quantity;
 use comfy_table::{
     CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, Table, TableStyle, Width,
 };
@@ -285,8 +286,9 @@ impl Column {
                 let values = outcome.samples.iter().map(|sample| sample.observes[i]);
                 largest(&values.collect::<Vec<_>>())
             }
-            None => largest(&speeds) * outcome.lasts() * self.scale,
+            None => largest(&speeds) * outcome.lasts(),
         };
+        let ever = ever * self.scale;
         match largest(&told) < outcome.tolerance * ever {
             true => Decimals::of([ever]),
             false => Decimals::of(told),
@@ -313,24 +315,15 @@ fn shown(description: &Description, forces: usize) -> Vec<Column> {
         }
     }
     places.sort_unstable();
-    let column = |place: usize| match coordinates.get(place) {
-        Some(coordinate) if is_angle(coordinate) => Column {
-            head: format!("{}\n°", symbol(coordinate.name)),
+    let column = |place: usize| {
+        let (name, quantity) = match place.checked_sub(coordinates.len()) {
+            None => (coordinates[place].name, Quantity::Position(place)),
+            Some(i) => (description.observes[i].name, Quantity::Output(i)),
+        };
+        Column {
+            head: format!("{}\n{}", symbol(name), quantity.unit(description)),
             place,
-            scale: 180.0 / core::f64::consts::PI,
-        },
-        Some(coordinate) => Column {
-            head: format!("{}\n{}", symbol(coordinate.name), coordinate.unit),
-            place,
-            scale: 1.0,
-        },
-        None => {
-            let output = &description.observes[place - coordinates.len()];
-            Column {
-                head: format!("{}\n{}", symbol(output.name), output.unit),
-                place,
-                scale: 1.0,
-            }
+            scale: quantity.scale(description),
         }
     };
     places.into_iter().map(column).collect()
@@ -650,6 +643,27 @@ mod tests {
         assert!(lines.iter().any(|line| line == super::JACOBI));
         let still = story(&declared.replace("rate = 3", "rate = 0"));
         assert!(still.iter().all(|line| !line.contains("Jacobi")));
+    }
+
+    /// A pendulum let go at 60°: it passes below with θ̇² = g/l.
+    #[test]
+    fn outputs_that_are_angles_are_in_degrees_as_coordinates_are() {
+        let lines = story(
+            "parameters(m: \"kg\" = 1, l: \"m\" = 1, g: \"m/s^2\" = 10), coordinates(theta: \"rad\"),
+             kinetic = m/2 * l^2 * der(theta)^2, potential = -m * g * l * cos(theta),
+             observe(incline = theta + pi/6, rate = -der(theta)), start(up: theta = pi/3), stop(low: theta <= 0)",
+        );
+        assert!(lines.contains(&"s ° ° °/s".to_owned()), "{lines:#?}");
+        let rate = 10_f64.sqrt().to_degrees();
+        for told in [
+            "start 60.000 90.000 0.00 smooth".to_owned(),
+            format!("low stop 0.000 30.000 {rate:.2} smooth"),
+        ] {
+            assert!(
+                lines.iter().any(|line| line.ends_with(&told)),
+                "{told}\n{lines:#?}"
+            );
+        }
     }
 
     /// Two equal springs: one is in the middle when the other is.
