@@ -101,7 +101,17 @@ fn mistakes_stop_a_command_before_it_begins() {
         assert_eq!(text(&output.stderr), expected, "{arguments:?}");
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
     }
+    // Written in another encoding, byte 7 is é.
+    for name in ["latin.lagrange", "latin.toml"] {
+        fs::write(folder.join(name), b"\n// Caf\xe9.").expect("a file");
+    }
+    let latin = "is not UTF-8; save the file as UTF-8";
     for (arguments, expected) in [
+        (
+            ["run", "latin.lagrange"],
+            &*format!("cannot read latin.lagrange: byte 7, in line 2, {latin}"),
+        ),
+        (["run", "latin.toml"], latin),
         (["run", "missing.lagrange"], "cannot read missing.lagrange"),
         (["run", "wrong"], "did you mean the file `wrong.toml`?"),
         (["export", "wrong.toml"], "its name ends in .lagrange"),

@@ -54,7 +54,7 @@ table! {
     Later "E019" "`{0}` comes with a later version" "{1}";
     InclusiveRange "E020" "ranges are half open" "write `a..b`, which leaves `b` out";
     RustNotation "E021" "`{0}` is Rust's notation" "{1}";
-    TooDeep "E022" "too many parentheses inside each other" "name inner parts with `define`";
+    TooDeep "E022" "too many parentheses, powers or indices inside each other" "name inner parts with `define`";
     Exclusive "E023" "`{0}` and `{1}` exclude each other" "{2}";
     Operator "E024" "`{0}` is not an operator here" "{1}";
 
@@ -97,10 +97,11 @@ table! {
     EmptyRange "E310" "the range {0}..{1} is empty" "the upper bound must be larger than the lower one";
     TooMany "E311" "{0} elements are too many" "a declaration may unroll to {1}";
     Overflow "E312" "the exact numbers here outgrow 38 digits" "pass such numbers as fields of the struct";
-    ListProduct "E313" "{0} of two lists has no single meaning" "write `dot(a, b)`, `cross(a, b)`, or single elements";
+    ListProduct "E313" "the product of two lists has no single meaning" "write `dot(a, b)`, `cross(a, b)`, or single elements";
 
     NoValue "E314" "`{0}` has no value" "the numbers are outside of where it is defined";
     HighPower "E315" "this exponent is too large" "numerators and denominators of exponents go up to {0}";
+    ListDivisor "E316" "nothing can be divided by a list" "divide by a single value: an element `e[i]`, `norm(e)` or `dot(e, e)`";
 
     VelocityHere "E401" "{0} depends on positions only, and `{1}` is a velocity" "{2}";
     AccelerationHere "E402" "`{0}` is an acceleration" "accelerations are known after the equations are solved: in `observe`, `stop`, `mark` and `check` only";

@@ -202,13 +202,11 @@ impl Elaboration<'_> {
                 }
                 (Factor::Times, value) if list.is_none() => list = Some(value),
                 (Factor::Times, _) => {
-                    self.sink
-                        .report(Code::ListProduct, factor.extent, &[&"the product"]);
+                    self.sink.report(Code::ListProduct, factor.extent, &[]);
                     return None;
                 }
                 (Factor::Over, _) => {
-                    self.sink
-                        .report(Code::ListProduct, factor.extent, &[&"the quotient"]);
+                    self.sink.report(Code::ListDivisor, factor.extent, &[]);
                     return None;
                 }
             }

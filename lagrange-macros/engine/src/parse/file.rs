@@ -11,11 +11,11 @@
 use super::cursor::{Cursor, DEEPEST};
 use super::item::{self, Items, Parameters, attributes};
 use super::structure;
-use super::words::DEGREES;
+use super::words::{DEGREES, SINGLE_QUOTES};
 use crate::ast::{Declaration, Expr, Field, Home};
 use crate::diagnostics::{Code, Diagnostics, Extent};
 use core::ops::Range;
-use proc_macro2::{Ident, Span, TokenStream, TokenTree};
+use proc_macro2::{Ident, LexError, Span, TokenStream, TokenTree};
 
 /// Most bytes of a file.
 const LARGEST: usize = 1 << 20;
@@ -42,8 +42,19 @@ pub fn file(text: &str, name: &str, sink: &mut Diagnostics) -> Option<File> {
     let tokens: TokenStream = match text.parse() {
         Ok(tokens) => tokens,
         Err(error) => {
-            let begin = error.span().byte_range().start;
-            let hint = unreadable(text.get(begin..).unwrap_or_default());
+            let at = |error: &LexError| {
+                let begin = error.span().byte_range().start;
+                text.split_at_checked(begin).unwrap_or_default()
+            };
+            let error = match at(&error).1.starts_with('"') {
+                true => unclosed(text).unwrap_or(error),
+                false => error,
+            };
+            let (before, rest) = at(&error);
+            let hint = match rest.starts_with('\'') && is_quoted(before) {
+                true => SINGLE_QUOTES.to_owned(),
+                false => unreadable(rest),
+            };
             sink.report(Code::Unreadable, error.span(), &[&hint]);
             return None;
         }
@@ -100,6 +111,38 @@ pub fn file(text: &str, name: &str, sink: &mut Diagnostics) -> Option<File> {
     (sink.count() == before).then_some(file)
 }
 
+/// The error at the first quotation mark that is not closed: the line ends, or a comma or `=` follows, which no unit has. Where marks are
+/// read in pairs, it is the last one that is left over.
+fn unclosed(text: &str) -> Option<LexError> {
+    let (mut open, mut in_remark) = (None, false);
+    for (at, sign) in text.char_indices() {
+        match (sign, open) {
+            ('\n', None) => in_remark = false,
+            _ if in_remark => {}
+            ('/', None) => in_remark = text[at..].starts_with("//"),
+            ('"', None) => open = Some(at),
+            ('"', Some(_)) => open = None,
+            ('\n' | ',' | '=', Some(from)) if sign == '\n' || begins_unit(&text[..from]) => {
+                return text[..=from].parse::<TokenStream>().err();
+            }
+            _ => {}
+        }
+    }
+    None
+}
+
+/// Whether a unit stands behind this text.
+fn begins_unit(text: &str) -> bool {
+    text.trim_end().ends_with(':')
+}
+
+/// Whether a `'` behind this text is one of the two around a unit.
+fn is_quoted(before: &str) -> bool {
+    let line = before.rsplit('\n').next().unwrap_or_default();
+    let opened = line.rsplit_once('\'');
+    begins_unit(line) || opened.is_some_and(|(text, _)| begins_unit(text))
+}
+
 /// What to do about a text that begins with what cannot be read.
 fn unreadable(rest: &str) -> String {
     // A number that ends before a sign with which none does cannot be read from its beginning.
@@ -130,7 +173,8 @@ fn unreadable(rest: &str) -> String {
         '“' | '”' | '„' | '‘' | '’' => {
             "units stand in straight quotation marks: `\"kg\"`"
         }
-        _ => return format!("`{first}` is no character of the language"),
+        // Characters that cannot be seen are told by their numbers.
+        _ => return format!("`{}` is no character of the language", first.escape_debug()),
     };
     format!("`{first}` is no character of the language; {advice}")
 }

@@ -14,6 +14,10 @@ pub fn is_degree(word: &str) -> bool {
     ["deg", "degree", "degrees", "radians", "deg2rad", "rad2deg"].contains(&word)
 }
 
+/// What is said of texts in single quotation marks.
+pub(super) const SINGLE_QUOTES: &str =
+    "`'` is no character of the language; units stand in double quotation marks: `\"kg\"`";
+
 /// Signs between two sides.
 pub(super) const RELATIONS: &[&str] = &["==", ">=", "<=", "=", ">", "<", "!="];
 

@@ -3,7 +3,7 @@
 use super::Trouble;
 use super::values::{error, events, held, named, named_positive, positive, tolerance};
 use crate::catalogue::Catalogue;
-use crate::file::ENDING;
+use crate::file::{self, ENDING};
 use crate::names::method;
 use crate::request::{Refusal, Request};
 use crate::scene_file::{self, Outputs, SceneFile};
@@ -186,8 +186,7 @@ pub(super) fn scene(name: &str, catalogue: &Catalogue) -> Result<SceneFile, Trou
             outputs: Outputs::default(),
         });
     }
-    let text = std::fs::read_to_string(name)
-        .map_err(|error| Trouble::usage(format_args!("cannot read {name}: {error}")))?;
+    let text = file::read(name).map_err(Trouble::usage)?;
     let folder = Path::new(name).parent().unwrap_or(Path::new(""));
     scene_file::read(&text, folder, catalogue)
         .map_err(|mistake| Trouble::usage(format_args!("{name}:{mistake}")))

@@ -39,6 +39,14 @@ impl fmt::Display for Mistakes {
 
 impl core::error::Error for Mistakes {}
 
+/// A character as it is shown: none of them commands a terminal.
+fn visible(c: char) -> char {
+    match c.is_control() && c != '\t' {
+        true => char::REPLACEMENT_CHARACTER,
+        false => c,
+    }
+}
+
 /// ```text
 /// spring.lagrange:4:13: `stifness` is not known; did you mean `stiffness`? [E201]
 ///   4 | potential = stifness/2 * x^2,
@@ -50,12 +58,17 @@ fn told(path: &str, text: &str, mistake: &Diagnostic) -> String {
         "" => String::new(),
         hint => format!("; {hint}"),
     };
+    let said: String = format!("{}{hint}", mistake.message)
+        .chars()
+        .map(visible)
+        .collect();
     let (number, column) = (start.line.to_string(), start.column);
     let line: Vec<char> = text
         .lines()
         .nth(start.line - 1)
         .unwrap_or_default()
         .chars()
+        .map(visible)
         .collect();
     let last = match end.line == start.line {
         true => end.column,
@@ -71,9 +84,8 @@ fn told(path: &str, text: &str, mistake: &Diagnostic) -> String {
     let blank = |c: &char| if *c == '\t' { '\t' } else { ' ' };
     let before: String = line.iter().take(column).skip(from).map(blank).collect();
     format!(
-        "{path}:{number}:{}: {}{hint} [{}]\n  {number} | {shown}\n  {} | {before}{}",
+        "{path}:{number}:{}: {said} [{}]\n  {number} | {shown}\n  {} | {before}{}",
         column + 1,
-        mistake.message,
         mistake.code,
         " ".repeat(number.len()),
         "^".repeat(mark)

@@ -132,7 +132,15 @@ pub fn export(path: &str, text: &str) -> Result<Exported, Refused> {
 /// # Errors
 /// It cannot be read.
 pub fn read(path: &str) -> Result<String, Refused> {
-    fs::read_to_string(path).map_err(|error| Refused::Unreadable(format!("{path}: {error}")))
+    let refused = |why: String| Refused::Unreadable(format!("{path}: {why}"));
+    let bytes = fs::read(path).map_err(|error| refused(error.to_string()))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let read = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let (line, byte) = (1 + read.iter().filter(|&&c| c == b'\n').count(), read.len());
+        refused(format!(
+            "byte {byte}, in line {line}, is not UTF-8; save the file as UTF-8"
+        ))
+    })
 }
 
 /// What the engine makes of a text. A panic of the engine is a bug, never the user's mistake.

@@ -202,6 +202,43 @@ fn what_cannot_be_read_is_named() {
             "kinetic = \"a",
             "1:11: what begins here cannot be read; the quotation mark is not closed",
         ),
+        // The marks that follow are read in pairs.
+        (
+            "parameters(\n  a: \"m\" = 1, // \"\n  b: \"m = 2,\n  c: \"m\" = 3,\n)",
+            "3:6: what begins here cannot be read; the quotation mark is not closed",
+        ),
+        (
+            "parameters(a: \"m\" = 1, b: \"m = 2, c: \"m\" = 3)",
+            "1:27: what begins here cannot be read; the quotation mark is not closed",
+        ),
+        (
+            "parameters(#[lagrange(tex = \"a, b\")] a: \"m\" = 1, b: \"m)",
+            "1:53: what begins here cannot be read; the quotation mark is not closed",
+        ),
+        (
+            "coordinates(x: 'kg')",
+            "1:16: what begins here cannot be read; `'` is no character of the language; units stand in double quotation marks: `\"kg\"`",
+        ),
+        (
+            "coordinates(x: 'N m', y)",
+            "1:20: what begins here cannot be read; `'` is no character of the language; units stand in double quotation marks",
+        ),
+        (
+            "coordinates(x: 'm')",
+            "1:16: what begins here cannot be read; `'` is no character of the language; units stand in double quotation marks",
+        ),
+        (
+            "kinetic = x\0",
+            "1:12: what begins here cannot be read; `\\0` is no character of the language [E029]\n  1 | kinetic = x\u{fffd}\n",
+        ),
+        (
+            "kinetic = x\u{200b}",
+            "1:12: what begins here cannot be read; `\\u{200b}` is no character of the language",
+        ),
+        (
+            "coordinates(x: \"m\u{1b}\"), kinetic = der(x)^2",
+            "1:16: `\u{fffd}` has no place in a unit",
+        ),
         (
             "kinetic = 2·m·x^2",
             "1:11: what begins here cannot be read; `·` is no character of the language; a product is written `a*b`",

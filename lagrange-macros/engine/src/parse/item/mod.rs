@@ -14,7 +14,7 @@ pub(super) use parameter::{Parameters, attributes};
 use super::cursor::Cursor;
 use super::expression::{index, whole};
 use super::leftover::leftover;
-use super::words::{FILE_KEYWORDS, KEYWORDS, is_keyword};
+use super::words::{FILE_KEYWORDS, KEYWORDS, SINGLE_QUOTES, is_keyword};
 use crate::ast::{Attitude, Emit, Head, Impacts, Item, ItemKind, Name, Reference};
 use crate::diagnostics::{Code, Diagnostics, Extent, nearest};
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
@@ -359,7 +359,12 @@ pub(super) fn text(part: &mut Cursor, what: &str, sink: &mut Diagnostics) -> Opt
         part.next();
         return Some(text.value());
     }
-    part.expected(what, sink);
+    match part.peek() {
+        Some(TokenTree::Literal(literal)) if literal.to_string().starts_with('\'') => {
+            sink.report(Code::Unreadable, part.here(), &[&SINGLE_QUOTES]);
+        }
+        _ => part.expected(what, sink),
+    }
     None
 }
 
