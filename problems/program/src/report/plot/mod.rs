@@ -10,11 +10,13 @@
 
 mod axis;
 mod curves;
+mod key;
 mod panel;
 
 use crate::outcome::Outcome;
 use crate::quantity::{Quantity, Show};
 use curves::{Bands, bands, shown, usual};
+use key::Key;
 use panel::{Frame, Ready};
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -115,8 +117,7 @@ pub fn svg(runs: &[Run], shows: &[Show]) -> Result<String, String> {
         [_] => bands.names.clone(),
         runs => runs.iter().map(|run| run.title.to_owned()).collect(),
     };
-    let columns = key_columns(&keys);
-    let key = keys.len().div_ceil(columns) as u32 * KEY_LINE + FOOT;
+    let key = Key::new(&keys, runs.len() > 1);
     let alone = |i: usize| {
         panels
             .get(i + 1)
@@ -138,7 +139,7 @@ pub fn svg(runs: &[Run], shows: &[Show]) -> Result<String, String> {
         .map(|panel| Ready::new(panel, &outcomes, (first, last)));
     let ready: Vec<Ready> = ready.collect();
     let beside = ready.iter().map(Ready::beside).fold(BESIDE, u32::max);
-    draw_in(TITLE + body + key, |root| {
+    draw_in(TITLE + body + key.height(), |root| {
         let (title, rest) = root.split_vertically(TITLE);
         let heading = words(17, &BLACK, HPos::Left, VPos::Center);
         title.draw_text(
@@ -159,7 +160,7 @@ pub fn svg(runs: &[Run], shows: &[Show]) -> Result<String, String> {
             };
             panel::draw(&area, panel, &frame)?;
         }
-        panel::draw_key(&foot, &keys, columns, runs.len() > 1)
+        key.draw(&foot)
     })
 }
 
@@ -184,17 +185,6 @@ pub(super) fn draw_in(
     Ok(text
         .replacen(&drawn, &shown, 1)
         .replace("dy=\"0.5ex\"", "dy=\"0.36em\""))
-}
-
-/// As many columns as the longest name of a mode allows.
-fn key_columns(names: &[String]) -> usize {
-    let longest = names
-        .iter()
-        .map(|name| name.chars().count())
-        .max()
-        .unwrap_or(0) as u32;
-    let width = longest * LETTER + 50 * FINE;
-    (((WIDTH - 2 * MARGIN) / width) as usize).clamp(1, names.len().max(1))
 }
 
 /// Text of a height in pixels.

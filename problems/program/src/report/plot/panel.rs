@@ -1,10 +1,9 @@
-//! One panel of curves over shaded bands, and the key of the modes.
+//! One panel of curves over shaded bands.
 
 use super::axis::Axis;
 use super::curves::{Bands, Curve, DASHES, Panel, pieces, with_comma};
 use super::{
-    Area, COLOURS, Drawn, FINE, KEY_LINE, LETTER, MARGIN, MOST_NAMES, NAME_LINE, NAMES, TINTS,
-    WIDTH, px, words,
+    Area, COLOURS, Drawn, FINE, LETTER, MOST_NAMES, NAME_LINE, NAMES, TINTS, WIDTH, px, words,
 };
 use crate::outcome::Outcome;
 use crate::quantity::Quantity;
@@ -189,7 +188,7 @@ fn draw_names<'a>(area: &Area<'a>, panel: &Panel, frame: &Frame) -> Drawn<'a> {
 }
 
 /// A text with its middle left out where it is longer than the room.
-fn fitted(text: &str, room: u32) -> String {
+pub(super) fn fitted(text: &str, room: u32) -> String {
     let most = (room / LETTER) as usize;
     let letters: Vec<char> = text.chars().collect();
     if letters.len() <= most {
@@ -202,7 +201,12 @@ fn fitted(text: &str, room: u32) -> String {
 }
 
 /// A piece of a curve, beside its name.
-fn sample<'a>(area: &Area<'a>, (left, y): (i32, i32), colour: RGBColor, dash: usize) -> Drawn<'a> {
+pub(super) fn sample<'a>(
+    area: &Area<'a>,
+    (left, y): (i32, i32),
+    colour: RGBColor,
+    dash: usize,
+) -> Drawn<'a> {
     const LONG: i32 = 22;
     let (dash, gap) = DASHES[dash].unwrap_or((LONG, 0));
     for from in (0..LONG).step_by((dash + gap) as usize) {
@@ -210,43 +214,6 @@ fn sample<'a>(area: &Area<'a>, (left, y): (i32, i32), colour: RGBColor, dash: us
         area.draw(&PathElement::new(
             ends.to_vec(),
             colour.stroke_width(2 * FINE),
-        ))?;
-    }
-    Ok(())
-}
-
-/// What the numbered tints mean, or the colours of several runs.
-pub(super) fn draw_key<'a>(
-    area: &Area<'a>,
-    names: &[String],
-    columns: usize,
-    several: bool,
-) -> Drawn<'a> {
-    let style = words(13, &BLACK, HPos::Left, VPos::Center);
-    let width = (WIDTH - 2 * MARGIN) as i32 / columns as i32;
-    for (mode, name) in names.iter().enumerate() {
-        let x = MARGIN as i32 + (mode % columns) as i32 * width;
-        let y = (mode / columns) as i32 * KEY_LINE as i32 + px(18);
-        if several {
-            sample(area, (x, y), COLOURS[mode % COLOURS.len()], 0)?;
-            let name = fitted(name, width as u32 - px(30) as u32);
-            area.draw(&Text::new(name, (x + px(30), y), style.clone()))?;
-            continue;
-        }
-        let tint = TINTS[mode % TINTS.len()];
-        area.draw(&Rectangle::new(
-            [(x, y - px(7)), (x + px(18), y + px(7))],
-            tint.filled(),
-        ))?;
-        area.draw(&Rectangle::new(
-            [(x, y - px(7)), (x + px(18), y + px(7))],
-            BLACK.mix(0.3).stroke_width(FINE),
-        ))?;
-        let name = format!("{}  {name}", mode + 1);
-        area.draw(&Text::new(
-            fitted(&name, width as u32 - px(26) as u32),
-            (x + px(26), y),
-            style.clone(),
         ))?;
     }
     Ok(())
