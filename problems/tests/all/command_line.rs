@@ -90,6 +90,11 @@ fn requests_without_sense_are_refused_in_one_line() {
         &["--start", "theta=1", "--start", "theta=1"],
         "`theta` is given twice",
     );
+    refuses(
+        &["run", "tumbling-body", "--start", "body.turn[0]=0.3"],
+        2,
+        "here a body is turned by all of q[0], q[1], q[2], q[3], which are",
+    );
     run(&["--until", "0"], "must be above 0");
     run(&["--tolerance", "-1"], "must be above 0");
     run(

@@ -117,6 +117,13 @@ pub enum Refusal {
         /// Which, where, and what to do.
         reason: String,
     },
+    /// How a body is turned or spins, which only a start of the declaration says.
+    OfBody {
+        /// `top.turn`
+        name: String,
+        /// `q[0], q[1], q[2], q[3]`
+        coordinates: String,
+    },
     /// The same name twice.
     Repeated {
         /// The name.
@@ -193,6 +200,11 @@ impl fmt::Display for Refusal {
                 }
             }
             Refusal::Declaration { reason } => f.write_str(reason),
+            Refusal::OfBody { name, coordinates } => write!(
+                f,
+                "`{name}` stands in a `start(…)` of the declaration, where a parameter can set it; here a body is turned by all of {coordinates}, \
+                 which are cos(α/2) and sin(α/2) times the axis"
+            ),
             Refusal::Repeated { name } => write!(f, "`{name}` is given twice; give it once"),
             Refusal::Uncounted { axis } => write!(
                 f,
@@ -444,6 +456,14 @@ pub(crate) fn find_coordinate(
     found.map(CoordinateId).ok_or_else(unknown)
 }
 
+/// The four coordinates of a body's attitude.
+fn quaternion(description: &Description, body: &str) -> Option<String> {
+    let mut constraints = description.constraints.iter();
+    let first = constraints.find(|c| c.name == body)?.attitude?;
+    let names = description.coordinates.iter().skip(first).take(4);
+    Some(names.map(|c| c.name).collect::<Vec<_>>().join(", "))
+}
+
 /// Level of a number of the state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Quantity {
@@ -466,6 +486,14 @@ pub(crate) fn find_state(
         if plain == velocity_name(coordinate.name) {
             return Ok((index, Quantity::Velocity));
         }
+    }
+    if let Some((body, _)) = plain.split_once('.')
+        && let Some(coordinates) = quaternion(description, body)
+    {
+        return Err(Refusal::OfBody {
+            name: plain,
+            coordinates,
+        });
     }
     let velocities: Vec<String> = description
         .coordinates
