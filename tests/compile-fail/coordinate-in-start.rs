@@ -6,4 +6,4 @@
     start(rest: x = y),
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
-//~ 6:21 E403 a start depends on parameters and t only, and `y` depends on the motion; use fields, numbers and `t`
+//~ 6:21 E403 a start depends on parameters and t only, and `y` depends on the motion; use parameters, numbers and `t`

@@ -5,4 +5,4 @@
     observe(last = x[mass]),
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
-//~ 5:22 E306 expected a whole number known at build time; indices and bounds are made of numbers and indices, not of fields or coordinates
+//~ 5:22 E306 expected a whole number known at build time; indices and bounds are made of numbers and indices, not of parameters or coordinates

@@ -90,13 +90,13 @@ table! {
     ScalarForList "E303" "a single value where a list is expected" "{0}";
     Lengths "E304" "lists of {0} and {1} elements do not fit" "both sides need as many elements";
     IndexRange "E305" "the index {0} is outside {1}..{2}" "indices start at the lower bound, and the upper bound is left out";
-    NotAnInteger "E306" "expected a whole number known at build time" "indices and bounds are made of numbers and indices, not of fields or coordinates";
+    NotAnInteger "E306" "expected a whole number known at build time" "indices and bounds are made of numbers and indices, not of parameters or coordinates";
     DivisionByZero "E307" "division by zero" "";
     NotAFunction "E308" "`{0}` is not a function" "{1}";
     NoSuchMember "E309" "`{0}` has no member `{1}`" "{2}";
     EmptyRange "E310" "the range {0}..{1} is empty" "the upper bound must be larger than the lower one";
     TooMany "E311" "{0} elements are too many" "a declaration may unroll to {1}";
-    Overflow "E312" "the exact numbers here outgrow 38 digits" "pass such numbers as fields of the struct";
+    Overflow "E312" "the exact numbers here outgrow 38 digits" "make such numbers parameters";
     ListProduct "E313" "the product of two lists has no single meaning" "write `dot(a, b)`, `cross(a, b)`, or single elements";
 
     NoValue "E314" "`{0}` has no value" "the numbers are outside of where it is defined";

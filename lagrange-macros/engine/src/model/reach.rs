@@ -25,7 +25,7 @@ impl Elaboration<'_> {
     ) -> Option<()> {
         let (code, hint) = match (context.reach, depth) {
             (Reach::Definition | Reach::Outputs, _) | (_, Depth::Parameter) => return Some(()),
-            (Reach::Parameters, _) => (Code::CoordinateHere, "use fields, numbers and `t`"),
+            (Reach::Parameters, _) => (Code::CoordinateHere, "use parameters, numbers and `t`"),
             (_, Depth::Position) => return Some(()),
             (Reach::Positions, Depth::Velocity) => (
                 Code::VelocityHere,

@@ -251,7 +251,7 @@ fn named(name: Name, cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<Expr
         sink.report(
             Code::RustNotation,
             &name,
-            &[&"self.", &"fields are written by their name alone"],
+            &[&"self.", &"parameters are written by their name alone"],
         );
         cursor.next();
         return postfix(cursor, sink);
@@ -358,7 +358,8 @@ fn path(first: &Name, cursor: &mut Cursor, sink: &mut Diagnostics) {
     let hint = match last.text.as_str() {
         "PI" => "write `pi`".to_string(),
         name if FUNCTIONS.contains(&name) => format!("write `{name}(…)`"),
-        _ => "the language knows fields, coordinates and names of the declaration only".to_string(),
+        _ => "the language knows parameters, coordinates and names of the declaration only"
+            .to_string(),
     };
     sink.report(
         Code::RustNotation,

@@ -98,6 +98,19 @@ fn what_only_a_file_has_is_checked() {
             format!("parameters(a = 1, a = 2), {rest}"),
             "1:19: `a` is already the name of a parameter",
         ),
+        // There is no struct whose fields could be meant.
+        (
+            format!("{rest}, potential = 1e30 * 1e30 * x"),
+            "1:49: the exact numbers here outgrow 38 digits; make such numbers parameters",
+        ),
+        (
+            format!("{rest}, start(a: x = x)"),
+            "1:50: a start depends on parameters and t only, and `x` depends on the motion; use parameters",
+        ),
+        (
+            format!("parameters(m = 1), {rest}, potential = self.m * x"),
+            "1:68: `self.` is Rust's notation; parameters are written by their name alone",
+        ),
         (
             format!("parameters(mass = 1, self = 1), {rest}"),
             "1:22: `self` cannot be the name of a parameter; no field of a struct of Rust can have it",
