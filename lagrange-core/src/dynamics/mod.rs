@@ -29,6 +29,7 @@ mod values;
 pub use error::{EvaluationError, row_name};
 pub(crate) use matrices::LeastForces;
 #[doc(hidden)]
+pub(crate) use output_mask::products;
 pub use output_mask::{OutputMask, add_branch_guards, add_guards};
 pub(crate) use packets::Packets;
 pub use projection::Residual;

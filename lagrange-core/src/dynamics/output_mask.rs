@@ -136,6 +136,40 @@ pub(super) fn of_motion(description: &Description, effects: &Effects, mode: &Mod
     needs
 }
 
+/// What the equations of motion and the guards need in one mode or another of a scene.
+fn of_all_modes(description: &Description, effects: &Effects) -> OutputMask {
+    let mut needs = of_energies_and_forces(description, effects);
+    let mut hold = |item: Item, list: &[usize]| {
+        if effects.includes(description, item) {
+            list.iter().for_each(|&need| needs.insert(need));
+        }
+    };
+    let of_row = |row: usize| {
+        let row = description.rows[row].needs;
+        [row.jacobian, row.bias, row.position, row.velocity]
+    };
+    for (i, constraint) in description.constraints.iter().enumerate() {
+        hold(Item::Constraint(i), &of_row(constraint.row));
+    }
+    for (i, contact) in description.contacts.iter().enumerate() {
+        hold(Item::Contact(i), &of_row(contact.row));
+    }
+    for (i, friction) in description.frictions.iter().enumerate() {
+        hold(Item::Friction(i), &[friction.coefficients_need]);
+        (friction.rows()).for_each(|row| hold(Item::Friction(i), &of_row(row)));
+    }
+    add_branch_guards(description, &mut needs);
+    needs
+}
+
+/// Sums over earlier coefficients for each new one of the Taylor series of the motion and the guards, of all modes of a scene
+/// together: what is left out has none.
+pub(crate) fn products(description: &Description, effects: &Effects) -> usize {
+    description
+        .motion
+        .products(&of_all_modes(description, effects))
+}
+
 /// What a projection needs: inertia, and Jacobian, position and velocity of the rows that act.
 pub(super) fn of_rows(description: &Description, effects: &Effects, mode: &Mode) -> OutputMask {
     let mut needs = of_inertia(description, effects);

@@ -150,7 +150,7 @@ impl Builder {
         let mut values = inputs.to_vec();
         values.resize(encoded.values.max(inputs.len()), Register::ZERO);
         let mut outputs = vec![None; encoded.outputs];
-        encoded.read(held, |value, word| {
+        encoded.read(held.needs, |value, word| {
             let result = match word {
                 Word::Constant(c) => numbers.register(c),
                 Word::Offset(c, x) => self.push(Op::Add, numbers.register(c), values[x]),

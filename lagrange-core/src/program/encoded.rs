@@ -11,7 +11,7 @@
 //! they are computed, the inputs first. A coefficient is a number by place · 4 + kind: a constant (0), a parameter (1), an exact
 //! number of the table (2).
 
-use super::{Op, Selection};
+use super::{Needs, Op};
 
 /// A program as data.
 #[derive(Clone, Copy, Debug)]
@@ -71,26 +71,17 @@ impl Encoded {
         outputs: 0,
     };
 
-    /// Products and functions of what varies along a motion, in all blocks: each is a sum over earlier coefficients for every new
-    /// one of a Taylor series.
-    pub(crate) fn products(&self) -> usize {
+    /// Products and functions of what varies along a motion, in the blocks that one of the needs asks for: each is a sum over
+    /// earlier coefficients for every new one of a Taylor series.
+    pub(crate) fn products(&self, needs: &Needs) -> usize {
         let mut products = 0;
-        self.read_blocks(|_, _| true, |_, word| products += word.products());
+        self.read(needs, |_, word| products += word.products());
         products
     }
 
-    /// Reads the blocks that one of the needs held asks for: to `take` go the words, each with the number of the value that it
-    /// computes, if it does.
-    pub(crate) fn read(&self, held: &Selection, take: impl FnMut(usize, Word)) {
-        let asks = |place: usize, mask: u64| {
-            let held = held.needs.get(place);
-            held.is_some_and(|held| held & mask != 0)
-        };
-        self.read_blocks(asks, take);
-    }
-
-    /// Reads the blocks for which a word of their mask of needs, at its place, asks, and those without needs.
-    fn read_blocks(&self, asks: impl Fn(usize, u64) -> bool, mut take: impl FnMut(usize, Word)) {
+    /// Reads the blocks that one of the needs asks for, and those without needs: to `take` go the words, each with the number of
+    /// the value that it computes, if it does.
+    pub(crate) fn read(&self, held: &Needs, mut take: impl FnMut(usize, Word)) {
         let (words, _) = self.words.as_chunks::<4>();
         let mut words = words.iter().map(|word| u32::from_le_bytes(*word));
         while let Some(count) = words.next() {
@@ -102,7 +93,7 @@ impl Encoded {
             for place in first..first + count as usize {
                 let (low, high) = (words.next(), words.next());
                 let needs = u64::from(low.unwrap_or(0)) | u64::from(high.unwrap_or(0)) << 32;
-                runs |= asks(place, needs);
+                runs |= held.get(place).is_some_and(|held| held & needs != 0);
             }
             let (length, first) = (words.next().unwrap_or(0), words.next().unwrap_or(0));
             if !runs {

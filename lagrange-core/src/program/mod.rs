@@ -18,6 +18,7 @@ mod tests;
 pub(crate) use builder::{Builder, Numbers};
 pub use encoded::Encoded;
 pub(crate) use instruction::{Op, Program, Register, room};
+pub(crate) use selection::Needs;
 pub use selection::{Selection, ValueRef};
 pub(crate) use series::Series;
 pub use series::{MAX_ORDER, Operation};

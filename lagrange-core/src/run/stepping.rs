@@ -6,7 +6,8 @@ use super::stiffness::Stiffness;
 use super::{Progress, Run};
 use crate::arithmetic::products::{ROW, Row};
 use crate::arithmetic::{Scalar, epsilon};
-use crate::dynamics::EvaluationError;
+use crate::dynamics::{self, EvaluationError};
+use crate::effects::Item;
 use crate::error::Error;
 use crate::integrate::taylor::{self, Costs, DefectControl};
 use crate::integrate::{Integrator, Method, StepPolynomial};
@@ -52,10 +53,12 @@ impl<T: Scalar> Stepper<T> {
     /// Room for the steps of states like this one.
     pub(super) fn new(settings: &Settings, d: &Description, state: &State<T>) -> Self {
         let n = state.q.len();
+        let effects = &settings.effects;
+        let acts = |i: &usize| effects.includes(d, Item::Constraint(*i));
         let costs = Costs {
-            products: d.motion.products(),
+            products: dynamics::products(d, effects),
             coordinates: n,
-            constraints: d.constraints.len(),
+            constraints: (0..d.constraints.len()).filter(acts).count(),
         };
         Stepper {
             order: taylor::order(settings.per_step(), costs),

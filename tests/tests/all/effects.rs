@@ -217,3 +217,34 @@ fn every_kind_of_item_costs_nothing_where_it_is_left_out() {
     visit(&mut equal);
     assert!(equal.0 >= 33, "only {} modes", equal.0);
 }
+
+/// Counts pairs whose runs make the same steps.
+struct SameSteps(usize);
+
+impl Visitor for SameSteps {
+    fn pair<Whole, Part>(&mut self, pair: &Pair, whole: &Whole, part: &Part)
+    where
+        Whole: Derived<Scalar = f64> + Starts,
+        Part: Derived<Scalar = f64> + Starts,
+    {
+        let start = part.at(StartId(0));
+        let without = Simulation::new(whole).effects(pair.without.clone());
+        let whole = without.run(&start, 0.0..2.0).expect("a run");
+        let part = Simulation::new(part).run(&start, 0.0..2.0).expect("a run");
+        let times = |run: &Trajectory<f64>| run.step_times().collect::<Vec<_>>();
+        let (times, expected) = (times(&whole), times(&part));
+        assert_eq!(times.len(), expected.len(), "{}", pair.name);
+        for (time, expected) in times.iter().zip(expected) {
+            assert!((time - expected).abs() < 1e-6, "{}", pair.name);
+        }
+        self.0 += 1;
+    }
+}
+
+/// The order of a step is that of what takes part.
+#[test]
+fn runs_make_the_same_steps_where_an_item_is_left_out() {
+    let mut same = SameSteps(0);
+    visit(&mut same);
+    assert!(same.0 >= 13, "only {} pairs", same.0);
+}
