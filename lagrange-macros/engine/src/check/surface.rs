@@ -82,7 +82,7 @@ pub(super) fn surface(
             let e = pool.substitute(equation, &sheet.solved);
             let e = pool.expand(e);
             let e = pool.simplify(e);
-            if vanishes(pool, e) {
+            if pool.vanishes(e) {
                 next.push(sheet);
                 continue;
             }
@@ -149,25 +149,6 @@ fn circular(
         }
     }
     None
-}
-
-/// Whether it is zero: by form, or by its values at points of both fields.
-fn vanishes(pool: &mut Pool, e: ExprId) -> bool {
-    use crate::symbolic::field::{PRIMES, Point};
-    if pool.is_zero(e) {
-        return true;
-    }
-    let angles = pool.angles(&[e], &[]);
-    let mut zeros = 0;
-    for seed in 0..8 {
-        let mut point = Point::new(PRIMES[seed as usize % 2], 77 + seed, &angles);
-        match pool.at_point(&[e], &mut point)[0] {
-            Ok(0) => zeros += 1,
-            Ok(_) => return false,
-            Err(_) => {}
-        }
-    }
-    zeros >= 2
 }
 
 /// Symbols inside the arguments of circular functions and exponentials: best left free.
@@ -286,7 +267,7 @@ fn needs_all(pool: &mut Pool, e: ExprId, symbol: Symbol, root: ExprId) -> bool {
     others.retain(|&other| other != symbol);
     others.into_iter().all(|other| {
         let slope = pool.differentiate(root, other);
-        !vanishes(pool, slope)
+        !pool.vanishes(slope)
     })
 }
 

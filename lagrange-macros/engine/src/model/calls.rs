@@ -47,6 +47,9 @@ impl Elaboration<'_> {
             };
             self.arity(name, arguments, function.arity()..=function.arity(), takes)?;
             let arguments = self.scalars(arguments, context)?;
+            let arguments: Vec<ExprId> = (arguments.into_iter())
+                .map(|argument| self.zero_or_not(argument))
+                .collect();
             if !self.has_value(text, &arguments) {
                 self.sink.report(Code::NoValue, expr.extent, &[expr]);
                 return None;
@@ -61,6 +64,7 @@ impl Elaboration<'_> {
             "sqrt" | "abs" | "sign" => {
                 self.arity(name, arguments, 1..=1, "1 argument")?;
                 let u = self.scalar(&arguments[0], context)?;
+                let u = self.zero_or_not(u);
                 if !self.has_value(text, &[u]) {
                     self.sink.report(Code::NoValue, expr.extent, &[expr]);
                     return None;

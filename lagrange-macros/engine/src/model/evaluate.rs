@@ -5,7 +5,7 @@ use super::elaboration::Elaboration;
 use super::value::Value;
 use crate::ast::{Decimal, Expr, ExprKind, Factor, Sign};
 use crate::diagnostics::{Code, Extent};
-use crate::symbolic::{ExprId, Rational};
+use crate::symbolic::{ExprId, Node, Rational};
 
 /// Numerators and denominators of exponents are at most this.
 const HIGHEST_POWER: i64 = 1_000;
@@ -54,7 +54,7 @@ impl Elaboration<'_> {
             }
             ExprKind::Power(base, exponent) => {
                 let (b, e) = (self.scalar(base, context), self.scalar(exponent, context));
-                let (b, e) = (b?, e?);
+                let (b, e) = (self.zero_or_not(b?), e?);
                 self.power_exists(expr, exponent.extent, b, e)?;
                 let power = self.system.pool.pow(b, e);
                 if power.is_none() {
@@ -81,6 +81,17 @@ impl Elaboration<'_> {
             ExprKind::Element(base, index) => self.element(base, index, context),
             ExprKind::Member(base, name) => self.member(base, name, context),
         }
+    }
+
+    /// The number 0 for what is zero in a form that does not show it, `(a + b)^2 - a^2 - 2*a*b - b^2`: what divides by it, or
+    /// takes its root, must know.
+    pub(super) fn zero_or_not(&mut self, e: ExprId) -> ExprId {
+        let pool = &mut self.system.pool;
+        let is_plain = matches!(pool.node(e), Node::Number(_) | Node::Symbol(_));
+        if !is_plain && pool.vanishes(e) {
+            return pool.integer(0);
+        }
+        e
     }
 
     /// Whether numbers have this power, and it is not absurdly high.
@@ -194,7 +205,8 @@ impl Elaboration<'_> {
                 (Factor::Times, Value::Scalar(e)) => scalars.push(e),
                 (Factor::Over, Value::Scalar(e)) => {
                     let one = self.system.pool.integer(1);
-                    let Some(inverse) = self.system.pool.div(one, e) else {
+                    let divisor = self.zero_or_not(e);
+                    let Some(inverse) = self.system.pool.div(one, divisor) else {
                         self.sink.report(Code::DivisionByZero, factor.extent, &[]);
                         return None;
                     };

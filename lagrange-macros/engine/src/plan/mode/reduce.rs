@@ -78,7 +78,7 @@ fn along(
     for (k, terms) in sums {
         let sum = pool.sum(&terms);
         let sum = pool.simplify(sum);
-        if !pool.is_zero(sum) {
+        if !pool.vanishes(sum) {
             combined.insert(k, sum);
         }
     }
@@ -157,7 +157,7 @@ pub(super) fn reduce(
                     None => term,
                 };
                 let sum = pool.simplify(sum);
-                if pool.is_zero(sum) {
+                if pool.vanishes(sum) {
                     combination.remove(&k);
                 } else {
                     combination.insert(k, sum);
@@ -169,7 +169,7 @@ pub(super) fn reduce(
             .into_iter()
             .filter_map(|(i, c)| Some((i, pool.simplify(c?))))
             .collect();
-        column.retain(|_, c| !pool.is_zero(*c));
+        column.retain(|_, c| !pool.vanishes(*c));
         let at = match column.contains_key(&pivot) {
             true => pivot,
             false => *column.iter().min_by_key(|&(&i, &c)| (rank(pool, c), i))?.0,

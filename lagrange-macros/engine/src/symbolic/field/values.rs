@@ -3,7 +3,7 @@
 use super::super::{ExprId, Function, Node, Pool, Rational};
 use super::angles::is_additive;
 use super::complex::Turn;
-use super::{FieldValue, Point, Prime, Trouble};
+use super::{FieldValue, PRIMES, Point, Prime, Trouble};
 
 impl Pool {
     /// Values at a point, whose `Angles` must have been made of these expressions (and others).
@@ -21,6 +21,31 @@ impl Pool {
             values.fill(e, point);
         }
         e.iter().map(|&e| values.at(e)).collect()
+    }
+
+    /// Whether an expression is zero wherever it has a value: by form, or by its values at points of both fields. An expression with
+    /// branches may be zero on one side of them only, and is taken for another number.
+    pub fn vanishes(&mut self, e: ExprId) -> bool {
+        /// Points at which it is looked at, and those with a value that must be zeros.
+        const POINTS: usize = 8;
+        const ZEROS: usize = 2;
+        if self.is_zero(e) {
+            return true;
+        }
+        if !self.branches(e).is_empty() {
+            return false;
+        }
+        let angles = self.angles(&[e], &[]);
+        let mut zeros = 0;
+        for (seed, &field) in (0..POINTS).zip(PRIMES.iter().cycle()) {
+            let mut point = Point::new(field, seed as u64, &angles);
+            match self.at_point(&[e], &mut point)[0] {
+                Ok(0) => zeros += 1,
+                Ok(_) => return false,
+                Err(_) => {}
+            }
+        }
+        zeros >= ZEROS
     }
 }
 
