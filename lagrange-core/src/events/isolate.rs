@@ -164,7 +164,7 @@ impl Search<'_> {
                 lo,
                 hi,
                 positive,
-                lo + (hi - lo) * polygon_zero(b, positive),
+                lo + (hi - lo) * polygon_zero(b, positive, self.noise),
             ));
         }
         let differences = b.windows(2).map(|pair| pair[1] - pair[0]);
@@ -265,15 +265,16 @@ impl Search<'_> {
     }
 }
 
-/// Where the control polygon of coefficients that change sign once passes zero.
-fn polygon_zero(b: &[f64], positive: bool) -> f64 {
-    let i = b[1..]
-        .iter()
-        .position(|&b| (b > 0.0) != positive)
-        .unwrap_or(b.len() - 2);
-    // b[i] may be noise of either sign at the start of the interval.
-    let fraction = (b[i] / (b[i] - b[i + 1])).clamp(0.0, 1.0);
-    (i as f64 + fraction) / (b.len() - 1) as f64
+/// Where the control polygon of coefficients that change sign once, from `positive`, passes zero: between the last that has the first sign
+/// and the first that has the other. Those between them are noise, and so may those before them be.
+fn polygon_zero(b: &[f64], positive: bool, noise: f64) -> f64 {
+    let has = |b: &f64, sign: bool| b.abs() > noise && (*b > 0.0) == sign;
+    let after = b.iter().position(|b| has(b, !positive));
+    let after = after.unwrap_or(b.len() - 1);
+    let before = b[..after].iter().rposition(|b| has(b, positive));
+    let before = before.unwrap_or(0);
+    let fraction = b[before] / (b[before] - b[after]);
+    (before as f64 + fraction * (after - before) as f64) / (b.len() - 1) as f64
 }
 
 /// The way to pass zero from the side given.

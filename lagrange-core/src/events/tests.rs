@@ -77,6 +77,21 @@ fn the_end_belongs_to_the_step_and_the_start_does_not() {
 }
 
 #[test]
+fn a_multiple_zero_at_the_start_hides_no_root_close_to_it() {
+    for order in 1..=4 {
+        for power in 1..=6 {
+            let root = 0.7 * 10f64.powi(-power);
+            // What is smaller than that is below the noise all the way to the root.
+            if root.powi(order) > 1e-12 {
+                let mut c = vec![0.0; order as usize];
+                c.extend([root, -1.0]);
+                check_close(&c, &[root], 1e-3 * root);
+            }
+        }
+    }
+}
+
+#[test]
 fn directions_alternate() {
     let list = found(&from_roots(&[0.2, 0.4, 0.9]));
     let directions: Vec<_> = list.iter().map(|root| root.direction).collect();
