@@ -75,7 +75,7 @@ impl<T: Scalar> Law<T> {
     }
 
     /// The impact with this share of every restitution.
-    fn solve_share(&mut self, c: &Collision<T>, rates: &[T], share: f64) -> bool {
+    pub fn solve_share(&mut self, c: &Collision<T>, rates: &[T], share: f64) -> bool {
         let share = T::from_f64(share);
         let bounce = |k: usize| {
             let touch = &c.touches[k];

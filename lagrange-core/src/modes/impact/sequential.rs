@@ -69,15 +69,42 @@ impl<T: Scalar> Turns<T> {
                 return Err(Stuck::Unsolved(k));
             }
             self.count += 1;
-            self.undetermined |= law.undetermined;
-            self.lowered |= law.lowered;
-            self.ambiguous |= law.ambiguous;
-            self.rates.copy_from_slice(&law.after);
-            for (sum, &impulse) in self.impulses.iter_mut().zip(&law.impulses) {
-                *sum += impulse;
-            }
+            self.add(law);
         }
+        self.settle(c, law);
         Ok(())
+    }
+
+    /// Adds an impact.
+    fn add(&mut self, law: &Law<T>) {
+        self.undetermined |= law.undetermined;
+        self.lowered |= law.lowered;
+        self.ambiguous |= law.ambiguous;
+        self.rates.copy_from_slice(&law.after);
+        for (sum, &impulse) in self.impulses.iter_mut().zip(&law.impulses) {
+            *sum += impulse;
+        }
+    }
+
+    /// What impacts that go on without end have left of an approach, below what counts as one, is taken by a last one of all that stay
+    /// together, without restitution: the bodies move on as one, to rounding.
+    fn settle(&mut self, c: &Collision<T>, law: &mut Law<T>) {
+        if self.count <= c.touches.len() {
+            return;
+        }
+        // What is left at one contact is handed on to its neighbours.
+        let noise = c
+            .touches
+            .iter()
+            .map(|touch| self.noise[touch.row] / c.strength(touch.row));
+        let noise = noise.filter(|noise| noise.is_finite()).fold(0.0, f64::max);
+        for (within, touch) in law.phase.within.iter_mut().zip(&c.touches) {
+            let own = self.noise[touch.row].max(noise * c.strength(touch.row));
+            *within = self.rates[touch.row].value().abs() <= own;
+        }
+        if law.solve_share(c, &self.rates, 0.0) {
+            self.add(law);
+        }
     }
 
     fn measure(&mut self, c: &Collision<T>) {

@@ -154,3 +154,44 @@ fn what_touches_and_carries_nothing_stays_closed() {
         }
     }
 }
+
+/// Balls on springs of one frequency, which all pass their middle at once.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x[4]),
+    kinetic = sum(i in 0..4: mass[i]/2 * der(x[i])^2),
+    potential = sum(i in 0..4: mass[i]/2 * x[i]^2),
+    contact(pair[k in 0..3]: x[k+1] - x[k] >= 0, restitution = bounce[k]),
+    impacts = in_turn,
+)]
+struct Sprung {
+    mass: [f64; 4],
+    bounce: [f64; 3],
+}
+
+/// The first strikes three that touch at their middle, where no force presses any together: what plastic impacts in turn leave of their rates, which
+/// converge to zero, must not tell contacts open or closed.
+#[test]
+fn impacts_in_turn_that_converge_leave_nothing() {
+    let mut random = Random::new(48);
+    for k in 0..200 {
+        let mass = core::array::from_fn(|_| random.between(0.3, 3.0));
+        let bounce = match k % 2 {
+            0 => [0.0; 3],
+            _ => core::array::from_fn(|i| [0.0, 0.3, 0.5, 0.8][random.below(4).min(3 * i)]),
+        };
+        let sprung = Sprung { mass, bounce };
+        let start = state(&[-1.0, 0.0, 0.0, 0.0], &[0.0; 4]);
+        let motion = run(&sprung, start, 3.0);
+        let v = &motion.final_state().v;
+        let momentum: f64 = mass.iter().zip(v).map(|(m, v)| m * v).sum();
+        // All turn at the time π, each with cos(t − π/2) of the speed that the impact gave it.
+        let phase = 3.0_f64.sin();
+        agree("momentum", momentum, mass[0] * phase, 1e-9);
+        if bounce == [0.0; 3] {
+            for v in v {
+                agree("v", *v, mass[0] * phase / mass.iter().sum::<f64>(), 1e-9);
+            }
+        }
+    }
+}
