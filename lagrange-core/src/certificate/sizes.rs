@@ -9,7 +9,8 @@ use crate::trajectory::State;
 impl Equations {
     /// [`Self::balance`] at a state, its sizes with everything that rounding errors are relative to: how much it changes
     /// when the time and each position and velocity x changes by 1 + |x| (two large forces that cancel in a spring near its rest length) and
-    /// each acceleration by its size, and what the forces of rows bring from one equation into another.
+    /// each acceleration by its size and by what the forces of the state could make of it, and what the forces of rows bring from one equation
+    /// into another.
     pub fn balance_with_sizes(&mut self, at: Situation<'_>, mode: &Mode) {
         /// Changes of the state, whose rounding errors do not matter and which are small enough to be linear.
         const CHANGE: f64 = 1.0 / 1_048_576.0;
@@ -29,10 +30,12 @@ impl Equations {
             ..at
         });
         beside.push(self.residual.clone());
-        // Accelerations are rounded beside their own size, each for itself: huge ones that cancel where the inertia nearly vanishes.
+        // Accelerations are rounded beside their own size, each for itself: huge ones that cancel where the inertia nearly vanishes. Those that
+        // cancel are rounded beside what they cancel from.
+        self.measure_swiftness(at, mode);
         let mut acceleration = at.acceleration.to_vec();
         for (j, &own) in at.acceleration.iter().enumerate() {
-            acceleration[j] = (1.0 + CHANGE) * own;
+            acceleration[j] = own + CHANGE * (own.abs() + self.swiftness[j]);
             self.balance(Situation {
                 acceleration: &acceleration,
                 ..at
@@ -98,20 +101,25 @@ impl Equations {
         self.gradients.iter().map(|g| g.velocity.size).collect()
     }
 
-    /// Energies of velocities as large that do not cancel: what huge velocities are rounded beside.
+    /// Energies of none and of each velocity by itself, which do not cancel: what huge velocities are rounded beside, and those of what is
+    /// at rest in coordinates that move.
     pub fn energy_of_each(&mut self, at: Situation<'_>) -> f64 {
-        let signs = [[1.0, 1.0], [1.0, -1.0]];
-        let sizes = signs.map(|signs| {
-            let pairs = at.v.iter().zip(signs.into_iter().cycle());
-            let v: Vec<f64> = pairs.map(|(v, sign)| sign * v.abs()).collect();
-            let turned = Situation { v: &v, ..at };
-            self.balancing.evaluate(turned.inputs(&self.zeros));
+        let n = at.v.len();
+        let mut v = vec![0.0; n];
+        let mut sum = 0.0;
+        for j in 0..=n {
+            v.fill(0.0);
+            if let Some(own) = v.get_mut(j) {
+                *own = at.v[j];
+            }
+            let alone = Situation { v: &v, ..at };
+            self.balancing.evaluate(alone.inputs(&self.zeros));
             let energies = self.energies();
-            energies
+            sum += energies
                 .map(|(value, _)| self.balancing.value(value).abs())
-                .sum::<f64>()
-        });
-        sizes[0].max(sizes[1])
+                .sum::<f64>();
+        }
+        sum
     }
 
     /// How much a value changes when each position and velocity x changes by 1 + |x|, or by more where its absolute tolerance says so: the
@@ -209,7 +217,7 @@ impl Equations {
 
     /// The second rate of a value of position level or the first of one of velocity level, and the size of its terms; where that is
     /// not enough, with what the forces of the state could make of accelerations, and velocities rounded beside 1: those of a body that
-    /// impacts have brought to rest are the rounding errors of what they were.
+    /// impacts have brought to rest are the rounding errors of what they were, and so are those that cancel what moves by itself.
     pub fn acceleration(
         &mut self,
         (value, level): (usize, Level),
@@ -222,7 +230,12 @@ impl Equations {
             return (error, size);
         }
         self.measure_swiftness(at, mode);
-        self.acceleration_beside(1.0, value, level, at)
+        let v: Vec<f64> = at.v.iter().map(|v| 1.0 + v.abs()).collect();
+        self.take(Situation { v: &v, ..at });
+        let (_, raised) = self.acceleration_beside(1.0, value, level, at);
+        self.take(at);
+        let (error, size) = self.acceleration_beside(1.0, value, level, at);
+        (error, size.max(raised))
     }
 
     /// The same where velocities v have the sizes `least` + |v|.

@@ -17,6 +17,9 @@ use crate::trajectory::{self, Trajectory};
 /// A step is cut into at most so many parts.
 const PARTS: usize = 256;
 
+/// An instant is known to this, relative to the time.
+const ROUNDING_OF_TIME: f64 = 64.0 * f64::EPSILON;
+
 /// What is followed along the motion.
 #[derive(Debug)]
 pub(super) struct Watches {
@@ -311,7 +314,12 @@ impl Watches {
                 }
                 Kind::Stop(i) => {
                     let error = if guard.armed { value } else { 0.0 };
-                    guard.armed |= value < 0.0;
+                    if value < 0.0 && !guard.armed {
+                        // One that begins to be true is false before by its rounding error, if at all.
+                        self.values.gradient_size(term, 0, &mut self.changes);
+                        let reach = change(&self.changes, &self.sizes, [at.q, at.v]);
+                        guard.armed = value < -findings.tolerance * reach;
+                    }
                     (Subject::Stops, error, self.d.stops[i].name)
                 }
                 Kind::Mark(i) => {
@@ -389,7 +397,8 @@ impl Guard {
             return 0.0;
         };
         let crossed = earlier < 0.0 && value > 0.0 || zeros && earlier > 0.0 && value < 0.0;
-        let blur = 1e-9 * (time - before);
+        // Where it jumps, rounding of the time alone tells before from after.
+        let blur = (1e-9 * (time - before)).max(ROUNDING_OF_TIME * time.abs());
         let near = before - blur..=time + blur;
         if crossed && !logged.iter().any(|t| near.contains(t)) {
             earlier.abs().min(value.abs())

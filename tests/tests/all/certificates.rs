@@ -2,8 +2,8 @@
 
 use lagrange_core::prelude::*;
 use lagrange_problems::catalogue::scenes;
-use lagrange_tests::certified;
 use lagrange_tests::fuzz::{self, Verdict};
+use lagrange_tests::{Random, certified, run, words};
 
 /// Random runs that fall short of their bounds, each for a reason that is to be found.
 const SHORT: [u64; 0] = [];
@@ -162,5 +162,66 @@ fn what_slides_while_a_ball_comes_to_rest_is_certified() {
         let rests = rests.expect("it comes to rest").time;
         assert!((rests - 0.6).abs() < 10.0 * tolerance, "{rests}");
         certified("", &run);
+    }
+}
+
+/// Three coordinates of which one has no force, and no acceleration.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(a, b, c),
+    define(x = 3/10 * a + 7/10 * c, y = 0.058 * a + 1.34 * b),
+    kinetic = (der(x)^2 + der(y)^2 + der(c)^2) / 2,
+    force(push: pull * sin(t) along der(y)),
+)]
+struct Coupled {
+    pull: f64,
+}
+
+/// A body comes to rest on a floor, in a coordinate that drifts.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(u),
+    define(x = 1.004 * u + drift * t),
+    kinetic = der(x)^2 / 2,
+    potential = 10 * x,
+    contact(floor: x >= 0),
+)]
+struct Drifting {
+    drift: f64,
+}
+
+/// A mark on what jumps.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    potential = 3/4 * x^2,
+    define(deaf = if(abs(x) <= edge, 0, x)),
+    mark(felt: deaf >= 4/5 * edge and der(x) >= 0),
+)]
+struct Deaf {
+    edge: f64,
+}
+
+/// Accelerations and velocities that are zero are so to rounding of what they are made of, and an instant at a jump to that of the time.
+#[test]
+fn what_is_all_rounding_is_no_error() {
+    let mut random = Random::new(49);
+    for _ in 0..100 {
+        let [a, b, c] = [(); 3].map(|()| random.between(-2.0, 2.0));
+        let start = State::new(vec![a, b, c], vec![0.0, 0.0, 0.0]);
+        certified("coupled", &run(&Coupled { pull: b }, start, 3.0));
+        let start = State::new(vec![1.0 + a.abs()], vec![0.0]);
+        certified("drifting", &run(&Drifting { drift: c }, start, 3.0));
+        let start = State::new(vec![0.0], vec![1.5 + a.abs()]);
+        let deaf = run(
+            &Deaf {
+                edge: 0.1 + b.abs() / 10.0,
+            },
+            start,
+            1.0,
+        );
+        assert_eq!(words(&deaf).len(), 1, "{:?}", words(&deaf));
+        certified("deaf", &deaf);
     }
 }
