@@ -64,8 +64,8 @@ impl<T: Scalar> Run<T> {
     /// Moves the state to the end of the step at hand, up to what ends it, and writes that down. The part of the step up to there.
     fn take_step(&mut self, hit: &Hit) -> Result<f64, Error> {
         let mut end = hit.end();
-        let mut exact = self.exact_end(hit);
         self.refuse_hidden_corners(end)?;
+        let mut exact = self.exact_end(hit);
         let refused = self.friction_that_pushes(end);
         if let Some((first, _)) = &refused {
             (end, exact) = (*first, T::from_f64(*first));
