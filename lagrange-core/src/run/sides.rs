@@ -12,6 +12,9 @@ use crate::modes::guard::Guard;
 /// What is left of a condition after an impact is rounding, beside what it was or the largest speed.
 const ROUNDING: f64 = 1e-12;
 
+/// A condition that has been located as zero is no more than this of its terms.
+const LOCATED: f64 = 1e-6;
+
 impl<T: Scalar> Run<T> {
     /// Whether there are branches that the motion depends on.
     fn has_sides(&self) -> bool {
@@ -67,6 +70,32 @@ impl<T: Scalar> Run<T> {
             (!vanishes).then_some(guard > 0.0)
         });
         self.switcher.conditions = before;
+    }
+
+    /// Puts branches on their sides whose conditions have fallen because they jumped beyond zero, with the side of another, not because they vanish.
+    pub(super) fn take_sides_that_jumped(&mut self, facts: &mut SwitchFacts) {
+        let d = self.description();
+        let fallen = core::mem::take(&mut self.locator.fallen);
+        let mut jumped = false;
+        for guard in &fallen {
+            if let Guard::Branch(b) = *guard
+                && !d.branches[b].after_solve
+                && let Some(curve) = self.locator.polynomials.of(*guard)
+            {
+                let size: f64 = curve.iter().map(|c| c.abs()).sum();
+                let condition = self.dynamics.motion(d.branches[b].guard).value();
+                if condition.abs() > LOCATED * size {
+                    (facts.balanced[b], jumped) = (false, true);
+                }
+            }
+        }
+        if jumped {
+            let follows = |b: usize| fallen.contains(&Guard::Branch(b)) && !facts.balanced[b];
+            self.take_sides(|_, b, condition| follows(b).then_some(condition >= 0.0));
+            let vanishes = |guard: &Guard| !matches!(*guard, Guard::Branch(b) if follows(b));
+            facts.located.retain(vanishes);
+        }
+        self.locator.fallen = fallen;
     }
 
     /// Puts branches on the sides that follow from the values of their guards at the present state, from whether the mode watches one, its number, and

@@ -259,6 +259,7 @@ impl<T: Scalar> Run<T> {
             self.evaluate()?;
         }
         self.remember_before();
+        self.take_sides_that_jumped(facts);
         let arrives = facts.arriving.contains(&true);
         let hit = arrives && self.hit(facts)?;
         if hit {

@@ -26,8 +26,8 @@ struct Term<'c> {
     curve: &'c [f64],
     /// Whether it was below zero when the step began.
     was_below: bool,
-    /// Whether its first rise has been seen before.
-    comes_back: bool,
+    /// The part of the step up to which a zero is the one with which it begins, seen before.
+    known: Option<f64>,
 }
 
 impl<T: Scalar> Run<T> {
@@ -62,20 +62,20 @@ impl<T: Scalar> Run<T> {
         let mut best: Option<(usize, f64)> = None;
         for &i in &curves.stops {
             let below = &self.locator.stop_below[i];
-            let first = self.becomes_true(&d.stops[i], end, |k| {
+            let term = |k: usize| {
                 let curve = curves.stop_term(i, k);
                 Term {
                     guard: Guard::Stop(i, k),
                     curve,
                     was_below: below[k],
-                    comes_back: comes_back_at_once(curve, below[k], resolution),
+                    known: self.known_zero(curve, below[k], None, resolution),
+                }
+            };
+            self.becomes_true(&d.stops[i], end, term, |s| {
+                if best.is_none_or(|(_, t)| s < t) {
+                    best = Some((i, s));
                 }
             });
-            if let Some(s) = first
-                && best.is_none_or(|(_, t)| s < t)
-            {
-                best = Some((i, s));
-            }
         }
         best
     }
@@ -95,13 +95,12 @@ impl<T: Scalar> Run<T> {
                 let curve = curves.mark_term(i, 0);
                 roots(curve, &mut all);
                 let below = self.locator.mark_below[i][0];
-                let comes_back = self.comes_back(i, 0, curve, resolution);
-                let known = self.known_zero(i, 0, curve, resolution);
-                let seen = comes_back || known.is_some();
-                if !seen && ((below && curve[0] > 0.0) || (!below && curve[0] < 0.0)) {
+                let known = self.known_zero(curve, below, Some((i, 0)), resolution);
+                let crosses = (below && curve[0] > 0.0) || (!below && curve[0] < 0.0);
+                if known.is_none() && crosses {
                     list.push((i, 0.0));
                 }
-                let roots = all.iter().skip(usize::from(comes_back));
+                let roots = all.iter();
                 let roots = roots.skip_while(|root| known.is_some_and(|until| root.s <= until));
                 let places = roots.map(|root| self.place(Guard::Mark(i, 0), root).0);
                 list.extend(
@@ -111,47 +110,55 @@ impl<T: Scalar> Run<T> {
                 );
             } else {
                 let below = &self.locator.mark_below[i];
-                let first = self.becomes_true(watch, last, |k| {
+                let term = |k: usize| {
                     let curve = curves.mark_term(i, k);
                     Term {
                         guard: Guard::Mark(i, k),
                         curve,
                         was_below: below[k],
-                        comes_back: self.comes_back(i, k, curve, resolution),
+                        known: self.known_zero(curve, below[k], Some((i, k)), resolution),
+                    }
+                };
+                // Terms that rise at the same instant make the mark true once.
+                let first = list.len();
+                self.becomes_true(watch, last, term, |s| {
+                    let s = s.min(end);
+                    let mut own = list[first..].iter();
+                    if !own.any(|(_, other)| (s - other).abs() <= resolution) {
+                        list.push((i, s));
                     }
                 });
-                list.extend(first.map(|s| (i, s.min(end))));
             }
         }
         list.sort_by(|a, b| a.1.total_cmp(&b.1));
     }
 
-    /// First instant up to `end` at which a watch becomes true: a term rises through zero while the others are true.
+    /// Visits the instants up to `end` at which a watch becomes true: a term rises through zero while the others are true.
     fn becomes_true<'c>(
         &self,
         watch: &Watch,
         end: f64,
         term: impl Fn(usize) -> Term<'c>,
-    ) -> Option<f64> {
+        mut visit: impl FnMut(f64),
+    ) {
         if !self.now.mode.satisfies(watch.conditions) {
-            return None;
+            return;
         }
-        let mut best: Option<f64> = None;
         for k in 0..watch.terms.len() {
             let Term {
                 guard,
                 curve,
                 was_below,
-                mut comes_back,
+                known,
             } = term(k);
             let others =
                 |s: f64| (0..watch.terms.len()).all(|j| j == k || self.is_true(term(j), s));
             let mut consider = |s: f64| {
-                if s <= end && others(s) && best.is_none_or(|b| s < b) {
-                    best = Some(s);
+                if s <= end && others(s) {
+                    visit(s);
                 }
             };
-            if was_below && curve.first().is_some_and(|c| *c >= 0.0) {
+            if was_below && known.is_none() && curve.first().is_some_and(|c| *c >= 0.0) {
                 consider(0.0);
             }
             find_root(curve, |root| {
@@ -160,13 +167,13 @@ impl<T: Scalar> Run<T> {
                     return Break(());
                 }
                 let rises = root.direction == Direction::Rising && !root.grazing;
-                if rises && !core::mem::take(&mut comes_back) {
+                let is_known = known.is_some_and(|until| root.s <= until);
+                if rises && !is_known {
                     consider(s);
                 }
                 Continue(())
             });
         }
-        best
     }
 
     /// Whether a term is true at part `s` of the step or becomes so there, as far as rounding can tell.
@@ -177,42 +184,32 @@ impl<T: Scalar> Run<T> {
             || is_zero(term.curve, s, now, self.resolution_of_time()) && slope(term.curve, s) > 0.0
     }
 
-    /// Whether a term of a mark crosses zero once more only because rounding has put it back to the side from which it has come, or,
-    /// by no more than the tolerance, the projection onto the constraints after the step in which it passed.
-    fn comes_back(&self, mark: usize, term: usize, curve: &[f64], resolution: f64) -> bool {
-        let within = self.within(mark, term, resolution);
-        comes_back_at_once(curve, self.locator.mark_below[mark][term], within)
-    }
-
-    /// The part of the step up to which a zero of a term of a mark is the one with which the step begins, if it does and that is known: the run
-    /// starts there, or it has been logged and an impact has turned the term back.
-    fn known_zero(&self, mark: usize, term: usize, curve: &[f64], resolution: f64) -> Option<f64> {
-        let [start, rate, ..] = *curve else {
-            return None;
-        };
-        let starts = self.recorder.trajectory.segments.is_empty();
-        let logged = self.locator.mark_passed[mark] == Some(term);
-        let within = self.within(mark, term, resolution);
-        let known = (starts || logged) && is_zero(curve, 0.0, start, within);
-        known.then(|| {
-            let risen = resolution.max(2.0 * (start / rate).abs());
-            risen.max(rises_from_rounding(curve))
-        })
-    }
-
-    /// The part of the step within which a zero of a term of a mark counts as the one at the end of the last step.
-    fn within(&self, mark: usize, term: usize, resolution: f64) -> f64 {
+    /// The part of the step up to which a zero of a term of a stop, or of one of a `mark`, is the one with which the step begins, if it does and that is
+    /// known: the run starts there; or it has been logged and an impact has turned the term back; or the term crosses zero once more only because
+    /// rounding has put it back to the side from which it has come, or, by no more than the tolerance, the projection onto the constraints after
+    /// the step in which it passed.
+    fn known_zero(
+        &self,
+        curve: &[f64],
+        was_below: bool,
+        mark: Option<(usize, usize)>,
+        resolution: f64,
+    ) -> Option<f64> {
         let step = &self.stepper.step;
-        match self.locator.mark_passed[mark] == Some(term) {
+        let logged = mark.is_some_and(|(i, k)| self.locator.mark_passed[i] == Some(k));
+        let within = match logged {
             true => self.settings.tolerance * (step.t.value() / step.h.value()).abs().max(1.0),
             false => resolution,
-        }
+        };
+        let starts = self.recorder.trajectory.segments.is_empty();
+        let known = starts || logged || comes_back_at_once(curve, was_below);
+        known.then(|| zero_at_start(curve, within)).flatten()
     }
 
     /// The part of the step to which rounding resolves the time of an event.
     fn resolution_of_time(&self) -> f64 {
-        let step = &self.stepper.step;
-        UNITS_OF_TIME * epsilon::<T>() * (step.t.value() / step.h.value()).abs()
+        let (t, h) = (self.stepper.step.t.value(), self.stepper.step.h.value());
+        UNITS_OF_TIME * epsilon::<T>() * t.abs().max((t + h).abs()) / h.abs()
     }
 
     /// Remembers on which side the terms of stops and marks are at part `end` of the step. The term of a mark that has been logged there is on
@@ -302,9 +299,10 @@ fn is_below(curve: &[f64], s: f64, resolution: f64, was_below: bool) -> bool {
     if !is_zero(curve, s, now, resolution) {
         return now < 0.0;
     }
-    match is_zero(curve, 0.0, value(curve, 0.0), resolution) {
-        true => was_below,
-        false => slope(curve, s) > 0.0,
+    let stays = [0.0, 0.5 * s].map(|s| is_zero(curve, s, value(curve, s), resolution));
+    match stays {
+        [true, true] => was_below,
+        _ => slope(curve, s) > 0.0,
     }
 }
 
@@ -323,23 +321,23 @@ pub(super) fn leading(curve: &[f64], resolution: f64) -> Option<usize> {
     curve.iter().position(|c| c.abs() > noise)
 }
 
-/// The part of a step after which a curve that begins with zero can be told from it, by the first of its terms that is no rounding.
-fn rises_from_rounding(curve: &[f64]) -> f64 {
+/// The part of a step after which a curve that begins with zero, as far as rounding of its values and of the time can tell, can be told from it.
+/// Nothing if it does not begin so.
+fn zero_at_start(curve: &[f64], resolution: f64) -> Option<f64> {
+    let (start, others) = curve.split_first()?;
     let noise = RESOLUTION * curve.iter().map(|c| c.abs()).sum::<f64>();
-    match leading(curve, RESOLUTION) {
-        Some(order) if order > 0 => (noise / curve[order].abs()).powf(1.0 / order as f64),
-        _ => 0.0,
-    }
+    let rises = (1..)
+        .zip(others)
+        .map(|(k, c)| (noise / c.abs()).powf(1.0 / f64::from(k)));
+    let risen = rises.fold(1.0, f64::min);
+    is_zero(curve, 0.0, *start, resolution).then_some(risen.max(2.0 * resolution))
 }
 
-/// Whether rounding has put the begin of a curve to the side from which it has come, and it crosses zero to the other one again.
-fn comes_back_at_once(curve: &[f64], was_below: bool, resolution: f64) -> bool {
-    let [start, rate, ..] = *curve else {
-        return false;
-    };
-    let crosses = match was_below {
-        true => start > 0.0 && rate < 0.0,
-        false => start < 0.0 && rate > 0.0,
-    };
-    crosses && is_zero(curve, 0.0, start, resolution)
+/// Whether a curve begins on the side of zero to which it went before, and crosses it to the other one again.
+fn comes_back_at_once(curve: &[f64], was_below: bool) -> bool {
+    match (curve, was_below) {
+        ([start, rate, ..], true) => *start >= 0.0 && *rate < 0.0,
+        ([start, rate, ..], false) => *start <= 0.0 && *rate > 0.0,
+        _ => false,
+    }
 }

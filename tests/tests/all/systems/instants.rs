@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{Random, agree, run, run_by, words};
+use lagrange_tests::{Random, agree, all_agree, run, run_by, times, words};
 
 /// A ball between floor and ceiling.
 #[derive(Lagrangian, Clone, Debug)]
@@ -147,6 +147,98 @@ fn what_begins_at_a_stop_with_its_cube_is_not_stopped() {
                 let root = 2.0_f64.sqrt();
                 let y = k / 2.0 * (5.0 - (root * 5.0).sin() / root);
                 agree(&what, run.final_state().q[0], y, 300.0 * tolerance);
+            }
+        }
+    }
+}
+
+/// x = (t − a)(t − b)(t − c)
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    force(push: x = 6 * t - 2 * (a + b + c)),
+    mark(passes: x),
+    mark(rises: x >= 0),
+    start(below: x = -a * b * c, der(x) = a * b + b * c + c * a),
+)]
+struct Cubic {
+    a: f64,
+    b: f64,
+    c: f64,
+}
+
+#[test]
+fn a_mark_that_becomes_true_twice_in_a_step_is_logged_twice() {
+    let mut random = Random::new(46);
+    for _ in 0..20 {
+        let a = random.between(0.1, 0.3);
+        let b = a + random.between(0.05, 0.3);
+        let cubic = Cubic {
+            a,
+            b,
+            c: b + random.between(0.05, 0.3),
+        };
+        for method in ["auto", "dop853", "dopri5", "verner98", "radau5"] {
+            let run = run_by(&cubic, (method, 1e-9), cubic.at(Cubic::BELOW), 1.0);
+            let what = format!("{cubic:?} by {method}");
+            for (item, expected) in [
+                ("passes", vec![cubic.a, cubic.b, cubic.c]),
+                ("rises", vec![cubic.a, cubic.c]),
+            ] {
+                let times = times(&run, item, "mark");
+                assert_eq!(times.len(), expected.len(), "{what}: {times:?}");
+                all_agree(&what, &times, &expected, 1e-7);
+            }
+        }
+    }
+}
+
+/// x = t² (end − t) begins at rest at zero, which is the sum of two coordinates and a number.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(u, v),
+    define(x = 0.769 * u + 0.13 * v + 0.226),
+    kinetic = (der(x)^2 + der(v)^2) / 2,
+    force(push: (2 * end - 6 * t) along der(x)),
+    mark(passes: x),
+    mark(falls: x <= 0),
+    stop(back: x <= 0),
+)]
+struct Returning {
+    end: f64,
+}
+
+#[test]
+fn what_begins_at_rest_at_a_zero_of_rounding_comes_back_once() {
+    let mut random = Random::new(47);
+    for k in 0..40 {
+        let end = match k % 2 {
+            0 => random.between(0.05, 0.4),
+            _ => random.between(0.001, 0.05),
+        };
+        let [v, rate] = [(); 2].map(|()| random.between(-1.0, 1.0));
+        let start = || {
+            state(
+                &[(-0.226 - 0.13 * v) / 0.769, v],
+                &[-0.13 * rate / 0.769, rate],
+            )
+        };
+        let returning = Returning { end };
+        for method in ["auto", "dop853", "verner98", "radau5"] {
+            let what = format!("{end} {v} {rate} by {method}");
+            let stopped = run_by(&returning, (method, 1e-9), start(), 1.0);
+            agree(&what, stopped.last_time(), end, 1e-6);
+            let simulation = Simulation::new(&returning)
+                .effects(Effects::all().without(Returning::BACK))
+                .method(method.parse().unwrap());
+            let run = simulation.run(start(), 0.0..1.0).unwrap();
+            for item in ["passes", "falls"] {
+                // Where it begins it is zero, too, as far as rounding can tell.
+                let times = times(&run, item, "mark").into_iter();
+                let later: Vec<f64> = times.filter(|time| *time > 1e-6).collect();
+                assert_eq!(later.len(), 1, "{what}: {item} {later:?}");
+                agree(&what, later[0], end, 1e-6);
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use super::{PI, state};
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, closure, run};
+use lagrange_tests::{Random, agree, all_agree, certified, closure, run, run_by, times};
 
 /// A damped oscillator between two stops made with `max`.
 #[derive(Lagrangian, Clone, Debug)]
@@ -213,5 +213,86 @@ fn outputs_are_on_the_side_of_the_state() {
             1e-12,
         );
         agree("pressed", now.observe(Falling::PRESSED), pressed, 0.0);
+    }
+}
+
+/// A push that is chosen twice, from a number that jumps.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, z),
+    define(g = if(t <= 1/2, up, -down)),
+    kinetic = (der(x)^2 + der(y)^2 + der(z)^2) / 2,
+    force(largest: x = max(least, g, 0)),
+    force(smallest: y = min(-least, -g, 0)),
+    force(both: z = abs(max(least, g) - least/2)),
+)]
+struct Nested {
+    least: f64,
+    up: f64,
+    down: f64,
+}
+
+/// An inner choice decides on the outer one; both come up where the number jumps.
+#[test]
+fn choices_within_choices_follow_a_jump() {
+    let mut random = Random::new(50);
+    for _ in 0..20 {
+        let least = random.between(0.1, 0.4);
+        let chosen = Nested {
+            least,
+            up: least + random.between(0.2, 1.0),
+            down: random.between(0.1, 2.0),
+        };
+        for method in ["auto", "dop853", "verner98", "radau5"] {
+            let motion = run_by(&chosen, (method, 1e-9), state(&[0.0; 3], &[0.0; 3]), 1.0);
+            let what = format!("{chosen:?} by {method}");
+            // Half a second with the first push, then half a second with the second.
+            let gone = |first: f64, second: f64| 3.0 / 8.0 * first + second / 8.0;
+            let push = gone(chosen.up, least);
+            let expected = [push, -push, gone(chosen.up - least / 2.0, least / 2.0)];
+            all_agree(&what, &motion.final_state().q, &expected, 1e-8);
+            certified(&what, &motion);
+        }
+    }
+}
+
+/// Marks on a side of which others have a kink.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    potential = x,
+    mark(passes: (x - edge) * (t - 9)),
+    mark(beyond: x >= edge and der(x) <= 0),
+    mark(bent: max(x, edge) - edge - 0.01),
+    start(thrown: der(x) = 1),
+)]
+struct Kinks {
+    edge: f64,
+}
+
+/// x = t − t²/2 passes the edge twice, and beyond becomes true at the top alone.
+#[test]
+fn a_kink_where_another_mark_passes_zero_hides_nothing() {
+    let mut random = Random::new(51);
+    for _ in 0..40 {
+        let kinks = Kinks {
+            edge: random.between(0.02, 0.45),
+        };
+        let root = |height: f64| (1.0 - 2.0 * height).sqrt();
+        for method in ["auto", "dop853", "verner98", "radau5"] {
+            let motion = run_by(&kinks, (method, 1e-9), kinks.at(Kinks::THROWN), 2.2);
+            let what = format!("{kinks:?} by {method}");
+            let (edge, bent) = (root(kinks.edge), root(kinks.edge + 0.01));
+            for (mark, expected) in [
+                ("passes", vec![1.0 - edge, 1.0 + edge]),
+                ("beyond", vec![1.0]),
+                ("bent", vec![1.0 - bent, 1.0 + bent]),
+            ] {
+                let times = times(&motion, mark, "mark");
+                assert_eq!(times.len(), expected.len(), "{what} {mark}: {times:?}");
+                all_agree(&what, &times, &expected, 1e-7);
+            }
+        }
     }
 }
