@@ -9,6 +9,7 @@ use crate::mode::FrictionMode;
 use crate::modes::facts::SwitchFacts;
 use crate::modes::guard::Guard;
 use crate::modes::scale::AT_REST;
+use crate::trajectory::State;
 
 impl<T: Scalar> Run<T> {
     /// A contact that closes without impact carries frictions whose slip nobody has looked at, and may end slips that its rate is
@@ -43,16 +44,17 @@ impl<T: Scalar> Run<T> {
         &mut self,
         facts: &mut SwitchFacts,
     ) -> Result<(), Error> {
-        let comes = |guard: &Guard| matches!(guard, Guard::Slip(_));
+        let comes = |guard: &&Guard| matches!(guard, Guard::Slip(_));
         let slips = |f: &usize| {
             matches!(self.now.mode.frictions[*f], FrictionMode::Slip(_)) && !facts.resting[*f]
         };
+        let coming = self.locator.fallen.iter().filter(comes).count();
         let mut ending = core::mem::take(&mut self.switcher.ending);
         ending.clear();
-        if self.locator.fallen.iter().any(comes) {
+        if coming > 0 {
             ending.extend((0..facts.resting.len()).filter(slips));
         }
-        self.rest_among(ending, facts)
+        self.rest_among(ending, coming > 1, facts)
     }
 
     /// A slip after an impact may be the error of rows that hold on: of a box that lands in the corner of a floor and a wall that move together.
@@ -73,11 +75,16 @@ impl<T: Scalar> Run<T> {
         if facts.touching.contains(&true) {
             ending.extend((0..d.frictions.len()).filter(rubs));
         }
-        self.rest_among(ending, facts)
+        self.rest_among(ending, false, facts)
     }
 
-    /// Which of these slips are the errors of rows, and rest.
-    fn rest_among(&mut self, mut ending: Vec<usize>, facts: &mut SwitchFacts) -> Result<(), Error> {
+    /// Which of these slips are the errors of rows, and rest; whether several others do that are errors of rows to one another.
+    fn rest_among(
+        &mut self,
+        mut ending: Vec<usize>,
+        several: bool,
+        facts: &mut SwitchFacts,
+    ) -> Result<(), Error> {
         if !ending.is_empty() {
             self.evaluate_all_rows()?;
         }
@@ -85,15 +92,22 @@ impl<T: Scalar> Run<T> {
             self.rates_of_slip(f)
                 .all(|(slip, size)| slip.abs() <= self.settings.tolerance * size.max(1.0))
         });
-        if !ending.is_empty() {
-            self.rest_if_nothing_is_left(&ending, facts);
+        if several || !ending.is_empty() {
+            self.rest_if_nothing_is_left(&ending, several, facts);
         }
         self.switcher.ending = ending;
         Ok(())
     }
 
-    /// Which of these slips vanish once all that rests sticks, and what touches stays closed.
-    fn rest_if_nothing_is_left(&mut self, ending: &[usize], facts: &mut SwitchFacts) {
+    /// Which of these slips vanish once all that rests sticks, and what touches stays closed. If one does, or `several` others do, the velocities
+    /// become those at which all vanish, if errors tell them apart: what is left of them would contradict that all stick. They do not in the
+    /// dead centre of a crank, which rests for an instant while its slider moves on.
+    fn rest_if_nothing_is_left(
+        &mut self,
+        ending: &[usize],
+        several: bool,
+        facts: &mut SwitchFacts,
+    ) {
         self.switcher.before_holding.clone_from(&self.now.state);
         let mode = &mut self.switcher.scratch_mode;
         mode.clone_from(&self.now.mode);
@@ -105,13 +119,26 @@ impl<T: Scalar> Run<T> {
             }
         }
         self.dynamics.set_mode(&self.switcher.scratch_mode);
+        let mut hold = false;
         // Where no velocity satisfies all rows together, none of the slips has ended.
         if self.project(true).is_ok() && self.evaluate_all_rows().is_ok() {
+            hold = several;
             for &f in ending {
                 facts.resting[f] = self.slip_vanishes(f);
+                hold |= facts.resting[f];
             }
         }
-        self.now.state.clone_from(&self.switcher.before_holding);
+        let State { q, v, .. } = &self.switcher.before_holding;
+        let mut velocities = v.iter().zip(&self.now.state.v);
+        let hold = hold
+            && velocities.all(|(before, held)| {
+                let (before, held) = (before.value(), held.value());
+                (held - before).abs() <= self.settings.tolerance * before.abs().max(1.0)
+            });
+        self.now.state.q.copy_from_slice(q);
+        if !hold {
+            self.now.state.v.copy_from_slice(v);
+        }
         self.dynamics.set_mode(&self.now.mode);
         self.now.valued = false;
     }

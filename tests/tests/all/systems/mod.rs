@@ -41,6 +41,7 @@ mod in_a_row;
 mod in_turn;
 mod incline;
 mod instants;
+mod joint_rests;
 mod joint_stops;
 mod just_true;
 mod kepler;

@@ -1,0 +1,91 @@
+//! Slips of one motion that end at one instant, whatever the errors of the run say of each.
+
+use super::state;
+use lagrange_core::prelude::*;
+use lagrange_tests::{Random, agree, event, run, run_by};
+
+/// A bob on a rod rubs along two walls and is pushed ever more.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    constraint(rod: sqrt(x^2 + y^2) == 1),
+    friction(floor: slip = der(x), limit = (a, 4/5 * a)),
+    friction(wall: slip = der(y), limit = (b, 4/5 * b)),
+    force(push: x = rise * t^2),
+)]
+struct Bob {
+    a: f64,
+    b: f64,
+    rise: f64,
+}
+
+/// Both slips end together, and begin again where the push along the circle exceeds what both hold: (a |cos φ| + b |sin φ|).
+#[test]
+fn frictions_that_come_to_rest_together_hold_together() {
+    let mut random = Random::new(45);
+    let mut rested = 0;
+    for _ in 0..12 {
+        let bob = Bob {
+            a: random.between(0.8, 2.0),
+            b: random.between(0.8, 2.0),
+            rise: random.between(1.0, 1.6),
+        };
+        let speed = -random.between(1.2, 1.7);
+        let (sin, cos) = random.between(0.02, 0.3).sin_cos();
+        let start = state(&[sin, -cos], &[speed * cos, speed * sin]);
+        for method in ["auto", "dop853", "dopri5", "verner98", "radau5"] {
+            for tolerance in [1e-6, 1e-9, 1e-12] {
+                let motion = run_by(&bob, (method, tolerance), start.clone(), 3.0);
+                let sticks = motion.events().iter().find(|event| {
+                    event.kind == EventKind::Sticks && event.subject == Subject::Friction(1)
+                });
+                let Some(rest) = sticks else {
+                    continue;
+                };
+                rested += 1;
+                let what = format!("{bob:?} {speed} by {method} at {tolerance:e}");
+                agree(
+                    &what,
+                    event(&motion, "floor", "sticks").time,
+                    rest.time,
+                    1e-15,
+                );
+                let [x, y] = [0, 1].map(|j| rest.state_after.q[j].abs());
+                let time = ((bob.a * y + bob.b * x) / (bob.rise * y)).sqrt();
+                for friction in ["floor", "wall"] {
+                    let slips = event(&motion, friction, "slips").time;
+                    agree(&what, slips, time, 100.0 * tolerance);
+                }
+            }
+        }
+    }
+    assert!(rested > 100, "{rested} runs come to rest");
+}
+
+/// A block on a wedge that stands on a floor, in coordinates of which none is that of a surface. One of its three rows follows from the others: only the
+/// numbers sin 1 and cos 1 hide it.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(a, x, w),
+    define(y = a + w),
+    kinetic = der(w)^2/2 + (der(x)^2 + der(y)^2)/2,
+    contact(face: y*cos(1) + (x - w)*sin(1) >= 0),
+    friction(grip on face: slip = der(x) - der(w) - der(y), static = mu),
+    dissipation(drag: der(w)^2/2),
+    contact(floor: y >= 0),
+)]
+struct Wedge {
+    mu: f64,
+}
+
+/// Both move as one: 2 ẅ = −ẇ.
+#[test]
+fn a_row_that_follows_from_others_in_sines_is_no_divisor() {
+    let start = state(&[0.0; 3], &[1.0, -1.0, -1.0]);
+    let motion = run(&Wedge { mu: 1.0 }, start, 2.0);
+    let gone = 2.0 * (1.0 - (-1.0_f64).exp());
+    for (j, expected) in [gone, -gone, -gone].into_iter().enumerate() {
+        agree("position", motion.final_state().q[j], expected, 1e-9);
+    }
+}
