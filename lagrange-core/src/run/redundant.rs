@@ -23,6 +23,9 @@ const ROOT: f64 = 1e-9;
 /// So often are the composite guards of one step found anew.
 const MOST_CORRECTIONS: usize = 12;
 
+/// After so many the forces themselves are asked where they cease to keep all bounds.
+const CORRECTIONS: usize = 4;
+
 /// Composite guards are also looked for at these parts of a step, at the second and each other one where the directions of forces do not turn,
 const WITHIN: [f64; 7] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875];
 
@@ -140,10 +143,13 @@ impl<T: Scalar> Run<T> {
                 (Hit::Guards(_), Guard::Composite(k)) => Some(*k),
                 _ => None,
             });
+        // The weights of an instant may be none of another.
+        let asks_forces = *corrections >= CORRECTIONS && last_kept > 0.0;
         let composites = &mut self.locator.polynomials.composites;
         match (fallen, critical, value) {
             (None, Some(composite), Some(value)) if value < -ROOT => {
-                match looked > 0.0 && is_like_one_of(&self.locator.refuted, &composite) {
+                let refuted = is_like_one_of(&self.locator.refuted, &composite);
+                match looked > 0.0 && (refuted || asks_forces) {
                     true => again |= self.locates_a_joint([last_kept, looked], looked),
                     false => {
                         composites.push(composite);
@@ -159,6 +165,10 @@ impl<T: Scalar> Run<T> {
                     ..composite
                 };
                 again |= !is_root;
+                if value < -ROOT && asks_forces {
+                    composites.remove(k);
+                    again |= self.locates_a_joint([last_kept, looked], looked);
+                }
             }
             (Some(k), ..) => {
                 self.locator.refuted.push(composites.remove(k));

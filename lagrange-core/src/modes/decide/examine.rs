@@ -1,12 +1,14 @@
 //! Whether one candidate mode is feasible: its guards at the instant and, of those that vanish, just after it.
 
 use super::Decider;
+use super::just_after::AHEAD;
 use super::questions::{blame, concerns, leading, list_questions};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
-use crate::integrate::Tolerance;
 use crate::integrate::taylor;
+use crate::integrate::{Tolerance, horner};
 use crate::mode::{FrictionMode, Mode};
+use crate::modes::composite;
 use crate::modes::facts::{EvaluationPoint, SwitchContext};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
@@ -19,6 +21,9 @@ const LOW_ORDER: usize = 4;
 
 /// A composite guard above this (relative) is not about to fall.
 const BORDER: f64 = 1e-3;
+
+/// One that is not below zero by more than this (relative) has not fallen.
+const KEPT: f64 = 1e-9;
 
 /// What is no larger than so many times a residue is one.
 const RESIDUES: f64 = 10.0;
@@ -110,14 +115,59 @@ impl<T: Scalar> Decider<T> {
             dynamics.series(t, q, v, order)?;
             self.decision.expanded = serves && order == moment.order;
             match self.judge(dynamics, here, order) {
-                Some(feasible) => return Ok(feasible),
+                Some(true) => return self.keeps_bounds_later(dynamics, here, order),
+                Some(false) => return Ok(false),
                 None => {
                     self.zeros.truncate(settled);
                     self.at_limit.clear();
                 }
             }
         }
-        Ok(true)
+        self.keeps_bounds_later(dynamics, here, moment.order)
+    }
+
+    /// Whether undetermined forces keep all bounds a little later as well, where their rows change: how they can share a load is then another
+    /// matter than at the instant. `dynamics` holds the series of the moment, and its values afterwards.
+    fn keeps_bounds_later(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        here: SwitchContext<'_, T>,
+        order: usize,
+    ) -> Result<bool, EvaluationError> {
+        let rows = dynamics.description().rows;
+        let mut acting = dynamics.acting_rows().iter();
+        let turn = acting.any(|&row| !rows[row].is_constant());
+        if self.composites.is_empty() || !turn {
+            return Ok(true);
+        }
+        let EvaluationPoint { t, q, v, .. } = here.moment;
+        let allowed = Tolerance::both(here.moment.tolerance.max(f64::EPSILON));
+        let step = taylor::step_size(dynamics.state_series(), order, allowed);
+        let later = T::from_f64(AHEAD * step.filter(|h| h.is_finite()).unwrap_or(1.0));
+        let series = |row: &[T]| horner(&row[..=order], later);
+        let coordinates = 0..q.len();
+        let place = coordinates
+            .clone()
+            .map(|j| series(dynamics.position_series(j)));
+        let place: Vec<T> = place.collect();
+        let speed: Vec<T> = coordinates
+            .map(|j| series(dynamics.velocity_series(j)))
+            .collect();
+        self.decision.expanded = false;
+        if dynamics.value(t + later, &place, &speed).is_ok() {
+            self.redundant.look(dynamics);
+            if let Some(composite) = self.redundant.critical(BORDER) {
+                let reading = Reading::Values(dynamics);
+                let composites = core::slice::from_ref(&composite);
+                let value =
+                    composite::value(Guard::Composite(0), composites, &self.posed, &reading);
+                if value < -KEPT {
+                    blame(Guard::Composite(0), composites, &mut self.violated);
+                }
+            }
+        }
+        dynamics.value(t, q, v)?;
+        Ok(self.violated.is_empty())
     }
 
     /// Whether rows that depend on others at the instant do so at the instant only, and a friction that sticks is one of them: a slider in

@@ -14,7 +14,7 @@ use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
 
 /// How far ahead guards at their border are looked at, in parts of the step.
-const AHEAD: f64 = 1e-2;
+pub(super) const AHEAD: f64 = 1e-2;
 
 /// So many composite guards at most begin at their border.
 const MOST_JOINTS: usize = 20;

@@ -289,7 +289,13 @@ impl GuardPolynomials {
                     (c, Sums::of(c).rest)
                 }
             };
-            curve.stays = c.is_empty() || c[0] > 0.0 && keeps_its_sign(c, rest, CLEAR);
+            // One that was located by the forces falls whatever its polynomial is.
+            let located = match curve.guard {
+                Guard::Composite(k) => self.composites[k].falls_after.is_some(),
+                _ => false,
+            };
+            let stays = c.is_empty() || c[0] > 0.0 && keeps_its_sign(c, rest, CLEAR);
+            curve.stays = stays && !located;
             all &= curve.stays || !matters(curve.guard);
         }
         all

@@ -2,7 +2,7 @@
 
 use super::{PI, state};
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, certified, event, run_by, times, words};
+use lagrange_tests::{Random, agree, certified, event, run_by, times, words};
 
 /// A sledge on two rough runners under a load that comes and goes.
 #[derive(Lagrangian, Clone, Debug)]
@@ -614,6 +614,98 @@ fn what_rests_on_more_than_it_needs_does_not_lose_rank() {
             agree(&what, end.v[0], 0.0, 1e-12);
             assert!(run.work().steps < 300, "{what}: {} steps", run.work().steps);
             certified(&what, &run);
+        }
+    }
+}
+
+/// A beam on three supports, one of which is drawn inwards.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y, p),
+    kinetic = der(y)^2 + der(p)^2/2,
+    potential = load * (y + arm * p),
+    contact(left: y - p >= 0),
+    contact(middle: y + inner * p >= 0),
+    contact(right: y + (1 - rate * t) * p >= 0),
+)]
+struct Drawn {
+    load: f64,
+    arm: f64,
+    inner: f64,
+    rate: f64,
+}
+
+/// It tips where the support passes the load, at (1 − arm)/rate.
+#[test]
+fn a_beam_tips_over_a_support_that_moves() {
+    let mut random = Random::new(52);
+    for _ in 0..8 {
+        let beam = Drawn {
+            load: random.between(2.0, 10.0),
+            arm: random.between(0.2, 0.7),
+            inner: random.between(-0.8, 0.1),
+            rate: random.between(0.2, 0.6),
+        };
+        let tips = (1.0 - beam.arm) / beam.rate;
+        for method in ["auto", "dop853", "verner98", "radau5"] {
+            for tolerance in [1e-6, 1e-9, 1e-12] {
+                let start = state(&[0.0; 2], &[0.0; 2]);
+                let motion = run_by(&beam, (method, tolerance), start, tips + 0.2);
+                let what = format!("{beam:?} by {method} at {tolerance:e}");
+                for support in ["left", "middle"] {
+                    agree(&what, event(&motion, support, "lost").time, tips, 1e-7);
+                }
+                certified(&what, &motion);
+            }
+        }
+    }
+}
+
+/// A block that a pad and the end of a lever hold, which moves ever faster than the block.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2/2,
+    friction(pad: slip = der(x), limit = own),
+    friction(end: slip = (1 + growth * t) * der(x), limit = far),
+    force(pull: x = rise * t^3),
+)]
+struct Lever {
+    own: f64,
+    far: f64,
+    growth: f64,
+    rise: f64,
+}
+
+/// It lets go where rise t³ = own + far (1 + growth t).
+#[test]
+fn what_holds_by_a_ratio_that_changes_lets_go_where_both_are_overcome() {
+    let mut random = Random::new(53);
+    for _ in 0..20 {
+        let lever = Lever {
+            own: random.between(0.3, 1.5),
+            far: random.between(0.3, 1.5),
+            growth: random.between(0.3, 1.5),
+            rise: random.between(1.0, 4.0),
+        };
+        let excess =
+            |t: f64| lever.rise * t.powi(3) - lever.own - lever.far * (1.0 + lever.growth * t);
+        let (mut before, mut after) = (0.0, 4.0);
+        while after - before > 1e-14 {
+            let middle = 0.5 * (before + after);
+            match excess(middle) > 0.0 {
+                true => after = middle,
+                false => before = middle,
+            }
+        }
+        for method in ["auto", "dop853", "verner98", "radau5"] {
+            for tolerance in [1e-6, 1e-9, 1e-12] {
+                let motion = run_by(&lever, (method, tolerance), state(&[0.0], &[0.0]), 4.0);
+                let what = format!("{lever:?} by {method} at {tolerance:e}");
+                for friction in ["pad", "end"] {
+                    agree(&what, event(&motion, friction, "slips").time, after, 1e-7);
+                }
+            }
         }
     }
 }
