@@ -96,8 +96,8 @@ impl<T: Scalar> Run<T> {
                 roots(curve, &mut all);
                 let below = self.locator.mark_below[i][0];
                 let known = self.known_zero(curve, below, Some((i, 0)), resolution);
-                let crosses = (below && curve[0] > 0.0) || (!below && curve[0] < 0.0);
-                if known.is_none() && crosses {
+                let begins_below = side_of_start(curve, resolution);
+                if known.is_none() && begins_below.is_some_and(|begins| begins != below) {
                     list.push((i, 0.0));
                 }
                 let roots = all.iter();
@@ -319,6 +319,16 @@ fn is_zero(curve: &[f64], s: f64, now: f64, resolution: f64) -> bool {
 pub(super) fn leading(curve: &[f64], resolution: f64) -> Option<usize> {
     let noise = resolution * curve.iter().map(|c| c.abs()).sum::<f64>();
     curve.iter().position(|c| c.abs() > noise)
+}
+
+/// Whether a curve begins below zero, or goes there from zero. Nothing if it stays zero, as far as rounding can tell.
+fn side_of_start(curve: &[f64], resolution: f64) -> Option<bool> {
+    let start = *curve.first()?;
+    if !is_zero(curve, 0.0, start, resolution) {
+        return Some(start < 0.0);
+    }
+    let first = leading(&curve[1..], RESOLUTION)?;
+    Some(curve[1 + first] < 0.0)
 }
 
 /// The part of a step after which a curve that begins with zero, as far as rounding of its values and of the time can tell, can be told from it.

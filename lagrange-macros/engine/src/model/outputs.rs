@@ -8,6 +8,7 @@ use super::value::Value;
 use super::{Condition, Observe, Watch};
 use crate::ast::{self, Clause, Expr, ExprKind, ModeWord, Name, Trigger};
 use crate::diagnostics::Code;
+use crate::symbolic::ExprId;
 
 const OUTPUT: Context = Context::new(Reach::Outputs, "an output");
 
@@ -69,9 +70,14 @@ impl Elaboration<'_> {
                     read.into_iter().collect::<Option<()>>()?;
                 }
             }
-            let depends = |&e: &crate::symbolic::ExprId| {
+            let moves = |e: ExprId| {
                 this.depth(&[e]) > Depth::Parameter
                     || this.system.pool.depends_on(e, this.system.time)
+            };
+            // What is 1 or −1 changes with the condition that decides on it.
+            let depends = |&e: &ExprId| {
+                let mut branches = this.system.pool.branches(e).into_iter();
+                moves(e) || branches.any(|b| moves(this.system.branches[b].guard))
             };
             if watch.conditions.is_empty() && !watch.terms.iter().any(depends) {
                 let hint = "it never changes: compare something that moves, or `t`";

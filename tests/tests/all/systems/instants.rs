@@ -243,3 +243,49 @@ fn what_begins_at_rest_at_a_zero_of_rounding_comes_back_once() {
         }
     }
 }
+
+/// A block that is pushed to and fro on a rough table.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    friction(table: slip = der(x), limit = 1/2),
+    force(shaking: x = push * sin(3 * t)),
+    mark(turns: der(x)),
+    mark(also: der(x) * (t - 9)),
+    start(go: der(x) = 7/10),
+)]
+struct Rubbed {
+    push: f64,
+}
+
+/// Where its friction reverses, the velocity 0.7 − t/2 + push (1 − cos 3t)/3 passes zero.
+#[test]
+fn a_mark_is_passed_where_a_friction_reverses() {
+    for push in [0.62, 0.8, 0.93] {
+        let velocity = |t: f64| 0.7 - t / 2.0 + push * (1.0 - (3.0 * t).cos()) / 3.0;
+        let (mut before, mut after) = (1.4, 2.1);
+        while after - before > 1e-15 * after {
+            let middle = 0.5 * (before + after);
+            if middle <= before || middle >= after {
+                break;
+            }
+            match velocity(middle) > 0.0 {
+                true => before = middle,
+                false => after = middle,
+            }
+        }
+        let rubbed = Rubbed { push };
+        for method in ["auto", "dop853", "dopri5", "verner98", "radau5"] {
+            for tolerance in [1e-6, 1e-9, 1e-12] {
+                let run = run_by(&rubbed, (method, tolerance), rubbed.at(Rubbed::GO), 1.95);
+                let what = format!("{push} by {method} at {tolerance:e}");
+                for mark in ["turns", "also"] {
+                    let times = times(&run, mark, "mark");
+                    assert!(!times.is_empty(), "{what}: {mark}");
+                    agree(&what, times[0], before, 100.0 * tolerance);
+                }
+            }
+        }
+    }
+}

@@ -296,3 +296,29 @@ fn a_kink_where_another_mark_passes_zero_hides_nothing() {
         }
     }
 }
+
+/// Marks and a stop on what is 1 or −1.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    mark(there: sign(x - edge) >= 0),
+    mark(late: if(t >= 2*edge, 1, -1) >= 0),
+    stop(beyond: if(x >= 3*edge, 1, -1) >= 0),
+    start(go: der(x) = 1),
+)]
+struct Signs {
+    edge: f64,
+}
+
+#[test]
+fn what_has_one_of_two_values_becomes_true_where_it_jumps() {
+    let signs = Signs { edge: 0.23 };
+    for method in ["auto", "dop853", "radau5"] {
+        let motion = run_by(&signs, (method, 1e-9), signs.at(Signs::GO), 1.0);
+        let events = motion.events().iter();
+        let watched = events.filter(|e| matches!(e.kind, EventKind::Mark | EventKind::Stop));
+        let found: Vec<f64> = watched.map(|event| event.time).collect();
+        all_agree(method, &found, &[0.23, 0.46, 0.69], 1e-9);
+    }
+}
