@@ -335,12 +335,15 @@ fn side_of_start(curve: &[f64], resolution: f64) -> Option<bool> {
 /// Nothing if it does not begin so.
 fn zero_at_start(curve: &[f64], resolution: f64) -> Option<f64> {
     let (start, others) = curve.split_first()?;
+    if !is_zero(curve, 0.0, *start, resolution) {
+        return None;
+    }
     let noise = RESOLUTION * curve.iter().map(|c| c.abs()).sum::<f64>();
     let rises = (1..)
         .zip(others)
         .map(|(k, c)| (noise / c.abs()).powf(1.0 / f64::from(k)));
     let risen = rises.fold(1.0, f64::min);
-    is_zero(curve, 0.0, *start, resolution).then_some(risen.max(2.0 * resolution))
+    Some(risen.max(2.0 * resolution))
 }
 
 /// Whether a curve begins on the side of zero to which it went before, and crosses it to the other one again.
