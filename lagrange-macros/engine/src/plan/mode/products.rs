@@ -5,8 +5,10 @@
 
 use super::powers::{Power, powers};
 use super::{Extra, ModeProgram, Phase};
+use crate::plan::needs::OutputMask;
 use crate::plan::{Block, Mode, Operation, Step, Value, ValueRef};
 use crate::sorted::SortedMap;
+use std::cmp::Reverse;
 
 /// A series that the core reads.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -37,7 +39,8 @@ pub type Product = (Factor, Factor);
 
 /// The rows and products of a mode.
 ///
-/// Four products make a group: the first those that always count, then those of each block under needs.
+/// Four products make a group: the first those that always count, then those of blocks under needs, which may be of several blocks: a sum
+/// that nobody asks for costs nothing beside others.
 pub struct Plan {
     /// Whether each value of the tape changes with time, and series need it.
     pub varying: Vec<bool>,
@@ -53,8 +56,16 @@ pub struct Plan {
     products: usize,
     /// Number of groups of four products.
     pub groups: usize,
-    /// The first group of a block under needs, by its first value.
-    first_groups: SortedMap<Value, usize>,
+    /// The last of these groups: those of blocks under needs.
+    pub optional: Vec<Group>,
+}
+
+/// Products of blocks under needs that are summed side by side.
+pub struct Group {
+    /// The needs of which one asks for it.
+    pub needs: OutputMask,
+    /// The products, each with its value and its number among those of this value.
+    pub products: Vec<(Value, usize, Product)>,
 }
 
 /// Products that are summed side by side.
@@ -85,7 +96,7 @@ impl Plan {
             rows: 0,
             products: 0,
             groups: 0,
-            first_groups: SortedMap::new(),
+            optional: Vec::new(),
         };
         for write in mode.tape.blocks.iter().flat_map(|block| &block.writes) {
             let varies = plan.varying[write.value.0];
@@ -114,19 +125,10 @@ impl Plan {
         plan.rows = zero_row(mode) + 1;
         let always = plan.always(mode).len() + plan.system_products(mode).len();
         (plan.products, plan.groups) = (always, always.div_ceil(GROUP));
-        for block in mode
-            .tape
-            .blocks
-            .iter()
-            .filter(|block| !block.needs.is_always())
-        {
-            let products = plan.products_of(block).len();
-            if let Some(step) = block.steps.first() {
-                plan.first_groups.insert(step.value, plan.groups);
-            }
-            plan.products += products;
-            plan.groups += products.div_ceil(GROUP);
-        }
+        plan.optional = plan.optional_groups(mode);
+        plan.groups += plan.optional.len();
+        let optional = plan.optional.iter().map(|group| group.products.len());
+        plan.products += optional.sum::<usize>();
         for extra in &mode.extras {
             let row = match extra.place {
                 ValueRef::Node(output) => plan.row_of_output(output),
@@ -160,10 +162,33 @@ impl Plan {
         self.rows_of.iter()
     }
 
-    /// The first group of a block under needs.
-    pub fn first_group(&self, block: &Block) -> usize {
-        let first = block.steps.first();
-        first.map_or(0, |step| self.first_groups[&step.value])
+    /// The groups of blocks under needs, what is most often asked for first, so that they are full where something is left out.
+    fn optional_groups(&self, mode: &ModeProgram) -> Vec<Group> {
+        let blocks = mode.tape.blocks.iter();
+        let mut blocks: Vec<&Block> = blocks.filter(|block| !block.needs.is_always()).collect();
+        blocks.sort_by_key(|block| (Reverse(block.needs.len()), &block.needs));
+        let products = blocks.iter().flat_map(|block| {
+            let own = self.products_of(block).into_iter();
+            own.map(|product| (&block.needs, product))
+        });
+        let products: Vec<_> = products.collect();
+        let groups = products.chunks(GROUP).map(|group| {
+            let mut needs = OutputMask::default();
+            group.iter().for_each(|(own, _)| needs.join(own));
+            let products = group.iter().map(|(_, product)| *product).collect();
+            Group { needs, products }
+        });
+        groups.collect()
+    }
+
+    /// The values whose series the products of blocks under needs multiply.
+    pub fn optional_factors(&self) -> impl Iterator<Item = Value> + '_ {
+        let products = self.optional.iter().flat_map(|group| &group.products);
+        let factors = products.flat_map(|&(_, _, (x, y))| [x, y]);
+        factors.filter_map(|factor| match factor {
+            Factor::Value(value) | Factor::Weighted(value) => Some(value),
+            Factor::Auxiliary(_) | Factor::Sum(_) => None,
+        })
     }
 
     /// The products that always count, each with its value and its number among those of this value.

@@ -60,11 +60,18 @@ pub fn implementation(
     let steps = blocks.flat_map(|block| &block.steps);
     let declared = steps
         .flat_map(|step| (0..step.operation.values()).map(|offset| Value(step.value.0 + offset)));
+    let writer = Writer::new(system, mode, declared.collect());
+    let mut crossing = names::crossing(&mode.tape);
+    // Their series are kept behind all blocks.
+    crossing.extend(
+        plan.optional_factors()
+            .filter(|value| writer.declared.contains(value)),
+    );
     let expansion = Expansion {
-        writer: Writer::new(system, mode, declared.collect()),
+        writer,
         plan,
         mode,
-        crossing: names::crossing(&mode.tape),
+        crossing,
     };
     let number = expansion.writer.number.clone();
     let elimination = Elimination::new(&expansion.writer, &mode.system);

@@ -1,11 +1,12 @@
 //! Coefficient k of a series: sums over the earlier coefficients, what is linear, the linear system, what follows from it.
 
+use super::rules::needs_auxiliary;
 use super::{Expansion, sum_coefficient};
 use crate::emit::equations::solve::Elimination;
 use crate::emit::equations::value;
 use crate::emit::names::{self, index, local};
 use crate::plan::mode::Phase;
-use crate::plan::mode::products::{Factor, GROUP, Product, Row};
+use crate::plan::mode::products::{Factor, GROUP, Group, Product, Row};
 use crate::plan::{Block, Mode, Operation, Step, Value};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -58,10 +59,18 @@ impl Expansion<'_> {
         for (i, j, product) in plan.system_products(mode) {
             products.push((system_product(i, j), product));
         }
-        body.extend(self.sums(0, &products));
+        body.extend(self.sums(0, &products, true));
+        body.extend(self.optional_sums());
         let crossing = self.crossing.iter().filter(|value| plan.varying[value.0]);
         for value in crossing {
             let name = self.coefficient_of(*value);
+            body.extend(quote!(let mut #name = #number::of(0.0);));
+        }
+        for step in self
+            .optional_steps()
+            .filter(|step| needs_auxiliary(step.operation))
+        {
+            let name = self.auxiliary_coefficient(step.value);
             body.extend(quote!(let mut #name = #number::of(0.0);));
         }
         // Coefficient k of the inputs.
@@ -170,6 +179,7 @@ impl Expansion<'_> {
             }
         }
         body.extend(self.keep_factors(0, &products));
+        body.extend(self.keep_optional_factors());
         quote! {
             let #p = #k & 31;
             let #weight = #number::of(#k as f64);
@@ -238,8 +248,8 @@ impl Expansion<'_> {
         (self.product(value, at), product)
     }
 
-    /// Σ xⱼ yₖ₋ⱼ for 0 < j < k of all products, which are in groups from `first` on.
-    fn sums(&self, first: usize, products: &[(Ident, Product)]) -> TokenStream {
+    /// Σ xⱼ yₖ₋ⱼ for 0 < j < k of all products, which are in groups from `first` on, into new locals or into those that there are.
+    fn sums(&self, first: usize, products: &[(Ident, Product)], new: bool) -> TokenStream {
         let (k, registers) = (local("k"), local("registers"));
         let (memory, newest) = (local("products"), local("newest"));
         let count = products.len().div_ceil(GROUP);
@@ -256,11 +266,61 @@ impl Expansion<'_> {
                 let at = index(at);
                 quote!((&#memory[#at], #newest[#at]))
             });
+            let bind = new.then(|| quote!(let));
             quote! {
-                let [#(#groups),*] = Products::sums(#registers, #k, [#(#factors),*]);
+                #bind [#(#groups),*] = Products::sums(#registers, #k, [#(#factors),*]);
             }
         });
         quote!(#(#loops)*)
+    }
+
+    /// The groups of blocks under needs: runs of those that the same needs ask for, with the number of the first.
+    fn optional_groups(&self) -> impl Iterator<Item = (usize, &[Group])> {
+        let optional = &self.plan.optional;
+        let mut next = self.plan.groups - optional.len();
+        let runs = optional.chunk_by(|a, b| a.needs == b.needs);
+        runs.map(move |run| {
+            let first = next;
+            next += run.len();
+            (first, run)
+        })
+    }
+
+    /// The products of such groups.
+    fn named_products(&self, run: &[Group]) -> Vec<(Ident, Product)> {
+        let products = run.iter().flat_map(|group| &group.products);
+        products.map(|&one| self.named(one)).collect()
+    }
+
+    /// Sums of the products of blocks under needs; zero where nothing asks for a group.
+    fn optional_sums(&self) -> TokenStream {
+        let number = &self.writer.number;
+        let runs = self.optional_groups().map(|(first, run)| {
+            let condition = names::condition(&run[0].needs);
+            let products = self.named_products(run);
+            let names = products.iter().map(|(name, _)| name);
+            let sums = self.sums(first, &products, false);
+            quote!(#(let mut #names = #number::of(0.0);)* if #condition { #sums })
+        });
+        quote!(#(#runs)*)
+    }
+
+    /// Keeps coefficient k of their factors.
+    fn keep_optional_factors(&self) -> TokenStream {
+        let runs = self.optional_groups().map(|(first, run)| {
+            let condition = names::condition(&run[0].needs);
+            let factors = self.keep_factors(first, &self.named_products(run));
+            quote!(if #condition { #factors })
+        });
+        quote!(#(#runs)*)
+    }
+
+    /// Steps of blocks under needs whose series are expanded.
+    fn optional_steps(&self) -> impl Iterator<Item = &Step> {
+        let blocks = self.mode.tape.blocks.iter();
+        let blocks = blocks.filter(|block| !block.needs.is_always());
+        let steps = blocks.flat_map(|block| &block.steps);
+        steps.filter(|step| self.plan.varying[step.value.0])
     }
 
     /// Keeps coefficient k of the factors of products.
@@ -302,23 +362,13 @@ impl Expansion<'_> {
     /// Coefficient k of the values of a phase.
     fn next_of(&self, phase: Phase) -> TokenStream {
         let blocks = self.mode.blocks(phase).map(|block| {
-            let conditional = !block.needs.is_always();
-            let products = self.plan.products_of(block).into_iter();
-            let products: Vec<_> = products.map(|one| self.named(one)).collect();
-            let first = if conditional {
-                self.plan.first_group(block)
-            } else {
-                0
-            };
-            let sums = conditional.then(|| self.sums(first, &products));
-            let factors = conditional.then(|| self.keep_factors(first, &products));
             let known = phase != Phase::Balance;
             let steps = block
                 .steps
                 .iter()
                 .map(|step| self.kept_coefficient(step, known));
             let writes = self.next_writes(block);
-            value::in_block(block, quote!(#sums #(#steps)* #factors #writes))
+            value::in_block(block, quote!(#(#steps)* #writes))
         });
         quote!(#(#blocks)*)
     }

@@ -187,7 +187,10 @@ impl Expansion<'_> {
 
     fn auxiliary_next(&self, value: Value, result: TokenStream) -> TokenStream {
         let name = self.auxiliary_coefficient(value);
-        quote!(let #name = #result;)
+        match self.writer.declared.contains(&value) {
+            true => quote!(#name = #result;),
+            false => quote!(let #name = #result;),
+        }
     }
 }
 
