@@ -6,6 +6,11 @@ use crate::error::Level;
 use crate::mode::Mode;
 use crate::trajectory::State;
 
+/// Velocities that are larger by 1, all of one sign.
+fn raised(v: &[f64]) -> Vec<f64> {
+    v.iter().map(|v| 1.0 + v.abs()).collect()
+}
+
 impl Equations {
     /// [`Self::balance`] at a state, its sizes with everything that rounding errors are relative to: how much it changes
     /// when the time and each position and velocity x changes by 1 + |x| (two large forces that cancel in a spring near its rest length) and
@@ -95,7 +100,7 @@ impl Equations {
     /// Momenta at velocities that are larger by 1, all of one sign, as sizes: what rounding errors of velocities that cancel are
     /// relative to.
     pub fn momentum_sizes(&mut self, time: f64, state: &State<f64>) -> Vec<f64> {
-        let v: Vec<f64> = state.v.iter().map(|v| 1.0 + v.abs()).collect();
+        let v = raised(&state.v);
         let raised = State::new(state.q.clone(), v);
         self.momenta(time, &raised, &[]);
         self.gradients.iter().map(|g| g.velocity.size).collect()
@@ -230,12 +235,12 @@ impl Equations {
             return (error, size);
         }
         self.measure_swiftness(at, mode);
-        let v: Vec<f64> = at.v.iter().map(|v| 1.0 + v.abs()).collect();
+        let v = raised(at.v);
         self.take(Situation { v: &v, ..at });
-        let (_, raised) = self.acceleration_beside(1.0, value, level, at);
+        let (_, of_raised) = self.acceleration_beside(1.0, value, level, at);
         self.take(at);
         let (error, size) = self.acceleration_beside(1.0, value, level, at);
-        (error, size.max(raised))
+        (error, size.max(of_raised))
     }
 
     /// The same where velocities v have the sizes `least` + |v|.

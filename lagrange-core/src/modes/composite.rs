@@ -45,6 +45,13 @@ impl CompositeGuard {
         };
         self.parts.len() == other.parts.len() && pairs.into_iter().all(alike)
     }
+
+    /// Its value.
+    pub fn value<T: Scalar>(&self, mode: &Mode, reading: &Reading<'_, T>) -> f64 {
+        let mut value = [0.0];
+        sum(self, mode, reading, &mut value);
+        value[0]
+    }
 }
 
 /// [`guard::series`], also of composite guards.
@@ -93,9 +100,7 @@ pub fn value<T: Scalar>(
     let Guard::Composite(index) = guard else {
         return guard::value(guard, mode, reading);
     };
-    let mut value = [0.0];
-    sum(&composites[index], mode, reading, &mut value);
-    value[0]
+    composites[index].value(mode, reading)
 }
 
 /// A guard by [`guard::series`] without factors, but of a cone only a plane that touches it.

@@ -10,7 +10,7 @@ use super::hit::Hit;
 use crate::arithmetic::Scalar;
 use crate::arithmetic::products::ROW;
 use crate::error::Error;
-use crate::modes::composite::{self, CompositeGuard};
+use crate::modes::composite::CompositeGuard;
 use crate::modes::guard::Guard;
 use crate::modes::reading::Reading;
 
@@ -348,9 +348,7 @@ impl<T: Scalar> Run<T> {
 
     /// A composite guard at the last value of the dynamics.
     fn joint_value(&self, composite: &CompositeGuard) -> f64 {
-        let composites = core::slice::from_ref(composite);
-        let reading = Reading::Values(&self.dynamics);
-        composite::value(Guard::Composite(0), composites, &self.now.mode, &reading)
+        composite.value(&self.now.mode, &Reading::Values(&self.dynamics))
     }
 }
 

@@ -1,14 +1,12 @@
 //! Whether one candidate mode is feasible: its guards at the instant and, of those that vanish, just after it.
 
 use super::Decider;
-use super::just_after::AHEAD;
+use super::just_after::{AHEAD, reach};
 use super::questions::{blame, concerns, leading, list_questions};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
-use crate::integrate::taylor;
 use crate::integrate::{Tolerance, horner};
 use crate::mode::{FrictionMode, Mode};
-use crate::modes::composite;
 use crate::modes::facts::{EvaluationPoint, SwitchContext};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
@@ -142,8 +140,7 @@ impl<T: Scalar> Decider<T> {
         }
         let EvaluationPoint { t, q, v, .. } = here.moment;
         let allowed = Tolerance::both(here.moment.tolerance.max(f64::EPSILON));
-        let step = taylor::step_size(dynamics.state_series(), order, allowed);
-        let later = T::from_f64(AHEAD * step.filter(|h| h.is_finite()).unwrap_or(1.0));
+        let later = T::from_f64(AHEAD * reach(dynamics, order, allowed));
         let series = |row: &[T]| horner(&row[..=order], later);
         let coordinates = 0..q.len();
         let place = coordinates
@@ -156,14 +153,11 @@ impl<T: Scalar> Decider<T> {
         self.decision.expanded = false;
         if dynamics.value(t + later, &place, &speed).is_ok() {
             self.redundant.look(dynamics);
-            if let Some(composite) = self.redundant.critical(BORDER) {
-                let reading = Reading::Values(dynamics);
+            if let Some(composite) = self.redundant.critical(BORDER)
+                && composite.value(&self.posed, &Reading::Values(dynamics)) < -KEPT
+            {
                 let composites = core::slice::from_ref(&composite);
-                let value =
-                    composite::value(Guard::Composite(0), composites, &self.posed, &reading);
-                if value < -KEPT {
-                    blame(Guard::Composite(0), composites, &mut self.violated);
-                }
+                blame(Guard::Composite(0), composites, &mut self.violated);
             }
         }
         dynamics.value(t, q, v)?;
@@ -190,8 +184,7 @@ impl<T: Scalar> Decider<T> {
         dynamics.series(moment.t, moment.q, moment.v, moment.order)?;
         self.decision.expanded = false;
         let allowed = Tolerance::both(moment.tolerance);
-        let step = taylor::step_size(dynamics.state_series(), moment.order, allowed);
-        let h = step.filter(|h| h.is_finite()).unwrap_or(1.0);
+        let h = reach(dynamics, moment.order, allowed);
         let largest = |series: &[T]| {
             let powers = core::iter::successors(Some(1.0), |power| Some(power * h));
             let terms = series.iter().zip(powers);

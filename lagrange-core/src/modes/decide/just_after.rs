@@ -45,6 +45,16 @@ impl<T: Scalar> Clone for Ahead<'_, T> {
 
 impl<T: Scalar> Copy for Ahead<'_, T> {}
 
+/// How far the series of the state at hand reach with this error, s; 1 if they end.
+pub(super) fn reach<T: Scalar>(
+    dynamics: &Dynamics<T>,
+    order: usize,
+    allowed: Tolerance<'_>,
+) -> f64 {
+    let step = taylor::step_size(dynamics.state_series(), order, allowed);
+    step.filter(|h| h.is_finite()).unwrap_or(1.0)
+}
+
 impl<T: Scalar> Decider<T> {
     /// Looks at the guards in question just after the moment. `None`: one of them vanishes to this order, and more is to
     /// be had.
@@ -63,8 +73,7 @@ impl<T: Scalar> Decider<T> {
             1e-3
         };
         let allowed = Tolerance::both(allowed);
-        let step = taylor::step_size(dynamics.state_series(), order, allowed);
-        let h = step.filter(|h| h.is_finite()).unwrap_or(1.0);
+        let h = reach(dynamics, order, allowed);
         let ahead = Ahead {
             dynamics,
             here,

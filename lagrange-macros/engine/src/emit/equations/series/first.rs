@@ -104,22 +104,16 @@ impl Expansion<'_> {
 
     /// Inverses and auxiliary values that leave a block.
     fn auxiliary_declarations(&self) -> TokenStream {
-        let blocks = self.mode.tape.blocks.iter();
-        let steps = blocks
-            .filter(|block| !block.needs.is_always())
-            .flat_map(|block| &block.steps);
         let number = &self.writer.number;
-        let lines = steps
-            .filter(|step| self.plan.varying[step.value.0])
-            .map(|step| {
-                let (u, i) = (self.auxiliary(step.value), self.inverse(step.value));
-                let second =
-                    needs_auxiliary(step.operation).then(|| quote!(let mut #u = #number::of(0.0);));
-                let inverse = self
-                    .needs_inverse(step)
-                    .then(|| quote!(let mut #i = #number::of(0.0);));
-                quote!(#second #inverse)
-            });
+        let lines = self.optional_steps().map(|step| {
+            let (u, i) = (self.auxiliary(step.value), self.inverse(step.value));
+            let second =
+                needs_auxiliary(step.operation).then(|| quote!(let mut #u = #number::of(0.0);));
+            let inverse = self
+                .needs_inverse(step)
+                .then(|| quote!(let mut #i = #number::of(0.0);));
+            quote!(#second #inverse)
+        });
         quote!(#(#lines)*)
     }
 

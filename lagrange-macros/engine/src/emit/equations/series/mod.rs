@@ -20,7 +20,7 @@ use super::writer::Writer;
 use crate::ast::Emit;
 use crate::plan::mode::ModeProgram;
 use crate::plan::mode::products::{Plan, Row};
-use crate::plan::{Program, Value, ValueRef};
+use crate::plan::{Program, Step, Value, ValueRef};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 use std::collections::BTreeSet;
@@ -122,6 +122,14 @@ pub fn implementation(
 }
 
 impl Expansion<'_> {
+    /// Steps of blocks under needs whose series are expanded.
+    fn optional_steps(&self) -> impl Iterator<Item = &Step> {
+        let blocks = self.mode.tape.blocks.iter();
+        let blocks = blocks.filter(|block| !block.needs.is_always());
+        let steps = blocks.flat_map(|block| &block.steps);
+        steps.filter(|step| self.plan.varying[step.value.0])
+    }
+
     /// A local that belongs to a value. What it is stands before the name: behind it, it could be a part of a declared one.
     fn of(&self, what: &str, value: Value) -> Ident {
         local(&format!("{what}{}", self.writer.locals.stem(value)))

@@ -315,14 +315,6 @@ impl Expansion<'_> {
         quote!(#(#runs)*)
     }
 
-    /// Steps of blocks under needs whose series are expanded.
-    fn optional_steps(&self) -> impl Iterator<Item = &Step> {
-        let blocks = self.mode.tape.blocks.iter();
-        let blocks = blocks.filter(|block| !block.needs.is_always());
-        let steps = blocks.flat_map(|block| &block.steps);
-        steps.filter(|step| self.plan.varying[step.value.0])
-    }
-
     /// Keeps coefficient k of the factors of products.
     fn keep_factors(&self, first: usize, products: &[(Ident, Product)]) -> TokenStream {
         let registers = local("registers");
