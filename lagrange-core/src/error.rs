@@ -3,6 +3,7 @@
 use crate::dynamics::EvaluationError;
 pub use crate::dynamics::error::Level;
 use crate::mode::Mode;
+pub use crate::shortest::Shortest;
 use crate::system::Description;
 use core::fmt;
 
@@ -301,7 +302,7 @@ impl fmt::Display for Error {
                 value,
                 expected,
             } => {
-                write!(f, "{what} = {value}: must be {expected}")
+                write!(f, "{what} = {}: must be {expected}", Shortest(*value))
             }
             Error::Domain {
                 time,
@@ -311,10 +312,15 @@ impl fmt::Display for Error {
                 expected,
                 fields,
             } => {
-                write!(f, "t = {time}: `{item}`: {what} = {value}")?;
+                write!(
+                    f,
+                    "t = {}: `{item}`: {what} = {}",
+                    Shortest(*time),
+                    Shortest(*value)
+                )?;
                 for (k, (field, value)) in fields.iter().enumerate() {
                     let before = if k == 0 { " with " } else { ", " };
-                    write!(f, "{before}`{field}` = {value}")?;
+                    write!(f, "{before}`{field}` = {}", Shortest(*value))?;
                 }
                 write!(f, "; it must be {expected}")
             }
@@ -359,8 +365,9 @@ impl fmt::Display for Error {
                 item,
             } => write!(
                 f,
-                "t = {time}: no nearby state satisfies all constraints; `{item}` is left with residual {}; \
+                "t = {}: no nearby state satisfies all constraints; `{item}` is left with residual {}; \
                  start nearer to the constraints or hold fewer values (what is at rest in the named start stays at rest)",
+                Shortest(*time),
                 short(*residual)
             ),
             Error::Singular {
@@ -369,7 +376,7 @@ impl fmt::Display for Error {
                 items,
                 reason,
             } => {
-                write!(f, "t = {time} ({mode}): {reason}")?;
+                write!(f, "t = {} ({mode}): {reason}", Shortest(*time))?;
                 for (k, item) in items.iter().enumerate() {
                     write!(f, "{}`{item}`", if k == 0 { ": " } else { ", " })?;
                 }
@@ -381,7 +388,11 @@ impl fmt::Display for Error {
                 what,
                 cause,
             } => {
-                write!(f, "t = {time} ({mode}): {what} is not finite; ")?;
+                write!(
+                    f,
+                    "t = {} ({mode}): {what} is not finite; ",
+                    Shortest(*time)
+                )?;
                 f.write_str(match cause {
                     NotFinite::Exponential => {
                         "exp, sinh or cosh is so large here that a power of it overflows: write 1/cosh(z)^2 as \
@@ -401,13 +412,18 @@ impl fmt::Display for Error {
                 after,
             } => write!(
                 f,
-                "t = {time}: `{item}` jumps from {before:.6} to {after:.6}; write it so that it is continuous, \
-                 for example an angle as a coordinate instead of by atan2"
+                "t = {}: `{item}` jumps from {} to {}; write it so that it is continuous, \
+                 for example an angle as a coordinate instead of by atan2",
+                Shortest(*time),
+                short(*before),
+                short(*after)
             ),
             Error::Corner { time, item, rate } => write!(
                 f,
-                "t = {time}: the rate of `{item}` jumps to {rate:.6} where a piecewise expression changes, or where what a root is \
-                 taken of vanishes, and what velocities do at such a corner is not computed; round it, or write each side as a contact of its own"
+                "t = {}: the rate of `{item}` jumps to {} where a piecewise expression changes, or where what a root is \
+                 taken of vanishes, and what velocities do at such a corner is not computed; round it, or write each side as a contact of its own",
+                Shortest(*time),
+                short(*rate)
             ),
             Error::Kick {
                 time,
@@ -422,14 +438,18 @@ impl fmt::Display for Error {
                 };
                 write!(
                     f,
-                    "t = {time}: {what} jumps from {before:.6} to {after:.6} where `{condition}` changes, and what velocities do at \
-                     such a kick is not computed; let it change over a distance or within a time, or declare what is hit as a contact"
+                    "t = {}: {what} jumps from {} to {} where `{condition}` changes, and what velocities do at \
+                     such a kick is not computed; let it change over a distance or within a time, or declare what is hit as a contact",
+                    Shortest(*time),
+                    short(*before),
+                    short(*after)
                 )
             }
             Error::Undirected { time, item } => write!(
                 f,
-                "t = {time}: the gap of `{item}` vanishes where it has no direction, as the distance of two points does; give them a \
-                 size, for example sqrt(x^2 + y^2) >= radius"
+                "t = {}: the gap of `{item}` vanishes where it has no direction, as the distance of two points does; give them a \
+                 size, for example sqrt(x^2 + y^2) >= radius",
+                Shortest(*time)
             ),
             Error::NoMode {
                 time,
@@ -441,7 +461,8 @@ impl fmt::Display for Error {
             } => {
                 write!(
                     f,
-                    "t = {time} ({mode}): none of {tried} modes continues the motion at `{item}`; "
+                    "t = {} ({mode}): none of {tried} modes continues the motion at `{item}`; ",
+                    Shortest(*time)
                 )?;
                 // Conditions are told as they are written; names have no blanks.
                 if *branches && item.contains(' ') {
@@ -467,7 +488,8 @@ impl fmt::Display for Error {
             } => {
                 write!(
                     f,
-                    "t = {time} ({mode}): no solution of the impact at `{item}` is found, in {tried} combinations of what takes part and what holds; "
+                    "t = {} ({mode}): no solution of the impact at `{item}` is found, in {tried} combinations of what takes part and what holds; ",
+                    Shortest(*time)
                 )?;
                 f.write_str(match (friction, several) {
                     (false, _) => "contacts that move may leave no room between them",
@@ -481,17 +503,20 @@ impl fmt::Display for Error {
                 impacts,
             } => write!(
                 f,
-                "t = {time}: `{item}` still approaches after {impacts} impacts in turn; lower the restitutions or solve \
-                 impacts together"
+                "t = {}: `{item}` still approaches after {impacts} impacts in turn; lower the restitutions or solve \
+                 impacts together",
+                Shortest(*time)
             ),
             Error::EnergyGain { time, item, gain } => write!(
                 f,
-                "t = {time}: the impact at `{item}` would add {} J; lower its restitution or its friction",
+                "t = {}: the impact at `{item}` would add {} J; lower its restitution or its friction",
+                Shortest(*time),
                 short(*gain)
             ),
             Error::StepTooSmall { time, step, mode } => write!(
                 f,
-                "t = {time} ({mode}): the step fell to {step:.1e} s; the motion is singular here or the tolerance is too tight"
+                "t = {} ({mode}): the step fell to {step:.1e} s; the motion is singular here or the tolerance is too tight",
+                Shortest(*time)
             ),
             Error::Unbounded {
                 time,
@@ -501,16 +526,19 @@ impl fmt::Display for Error {
                 to,
             } => write!(
                 f,
-                "t = {time} ({mode}): the force of `{item}` grows without bound, from {from:.3e} to {to:.3e}: rigid friction jams (Painlevé 1895); lower its \
-                 coefficient or make the contact compliant"
+                "t = {} ({mode}): the force of `{item}` grows without bound, from {from:.3e} to {to:.3e}: rigid friction jams (Painlevé 1895); lower its \
+                 coefficient or make the contact compliant",
+                Shortest(*time)
             ),
             Error::StepTooLarge { time, step, mode } => write!(
                 f,
-                "t = {time} ({mode}): a step of {step:.1e} s is too long to follow the motion; choose a smaller one"
+                "t = {} ({mode}): a step of {step:.1e} s is too long to follow the motion; choose a smaller one",
+                Shortest(*time)
             ),
             Error::NoProgress { time, modes, item } => write!(
                 f,
-                "t = {time}: `{item}` keeps switching without time advancing; last modes: {}",
+                "t = {}: `{item}` keeps switching without time advancing; last modes: {}",
+                Shortest(*time),
                 modes.join(" → ")
             ),
             Error::Limit { time, what, limit } => {
@@ -523,7 +551,8 @@ impl fmt::Display for Error {
                 let what = one.unwrap_or(what);
                 write!(
                     f,
-                    "t = {time}: more than {limit} {what}; if this is intended, end the run earlier{advice}"
+                    "t = {}: more than {limit} {what}; if this is intended, end the run earlier{advice}",
+                    Shortest(*time)
                 )
             }
             Error::OutOfReach {
@@ -533,7 +562,8 @@ impl fmt::Display for Error {
                 limit,
             } => write!(
                 f,
-                "t = {time}: the end, {end:e} s, is about {steps:.0e} steps away, and a run has at most {limit}; end it earlier"
+                "t = {}: the end, {end:e} s, is about {steps:.0e} steps away, and a run has at most {limit}; end it earlier",
+                Shortest(*time)
             ),
             Error::Inexact {
                 asked,
@@ -546,8 +576,9 @@ impl fmt::Display for Error {
                 }
                 write!(f, ": {reason}")
             }
-            Error::Interrupted { time } => write!(f, "interrupted at t = {time}"),
+            Error::Interrupted { time } => write!(f, "interrupted at t = {}", Shortest(*time)),
             Error::OutsideTrajectory { time, first, last } => {
+                let [time, first, last] = [time, first, last].map(|t| Shortest(*t));
                 write!(f, "t = {time} is outside the trajectory [{first}, {last}]")
             }
             Error::NotRecorded => {

@@ -66,6 +66,7 @@ pub mod prelude;
 mod program;
 mod run;
 mod settings;
+mod shortest;
 pub mod simulation;
 mod state;
 pub mod system;

@@ -2,6 +2,7 @@
 
 use super::state::Checks;
 use crate::error::Error;
+use crate::shortest::Shortest;
 use crate::system::System;
 use crate::trajectory::Instant;
 use core::fmt;
@@ -63,11 +64,19 @@ impl fmt::Display for Comparison {
         } = self.worst;
         write!(
             f,
-            "derived {derived}, by hand {by_hand} (difference {difference:.1e}, the worst of {} states, {}) at",
-            self.states, self.mode
+            "derived {}, by hand {} (difference {difference:.1e}, the worst of {} states, {}) at",
+            Shortest(derived),
+            Shortest(by_hand),
+            self.states,
+            self.mode
         )?;
         for (i, (name, value)) in self.state.iter().enumerate() {
-            write!(f, "{} {name} = {value}", if i == 0 { "" } else { "," })?;
+            write!(
+                f,
+                "{} {name} = {}",
+                if i == 0 { "" } else { "," },
+                Shortest(*value)
+            )?;
         }
         Ok(())
     }

@@ -21,6 +21,7 @@ pub mod taylor;
 mod tests;
 mod verner98;
 
+use crate::shortest::Shortest;
 use core::fmt;
 
 pub use control::Tolerance;
@@ -116,12 +117,14 @@ impl<E: fmt::Display> fmt::Display for StepError<E> {
             Self::Acceleration(error) => error.fmt(f),
             Self::TooSmall { time, h } => write!(
                 f,
-                "the step size has shrunk to {h:e} at t = {time}: the motion is singular there, or the tolerance is \
-                 below rounding; ask for a larger tolerance"
+                "the step size has shrunk to {h:e} at t = {}: the motion is singular there, or the tolerance is \
+                 below rounding; ask for a larger tolerance",
+                Shortest(*time)
             ),
             Self::NoConvergence { time, h } => write!(
                 f,
-                "the stages of the step of {h:e} at t = {time} do not converge: ask for a smaller step"
+                "the stages of the step of {h:e} at t = {} do not converge: ask for a smaller step",
+                Shortest(*time)
             ),
         }
     }

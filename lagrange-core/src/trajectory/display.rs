@@ -4,6 +4,7 @@ use super::debug::rows;
 use super::{Event, EventKind, Instant, Trajectory};
 use crate::arithmetic::Scalar;
 use crate::handle::Subject;
+use crate::shortest::Shortest;
 use core::fmt::{Display, Formatter, Result};
 
 /// The event as a sentence, `t = 2.461759150 s: grip starts to slip`.
@@ -45,16 +46,16 @@ impl<T: Scalar> Display for Instant<T> {
             write!(f, ": {}", self.mode.display(d))?;
         }
         for (coordinate, q) in d.coordinates.iter().zip(&self.state.q) {
-            write!(f, ", {} = {}", coordinate.name, q.value())?;
+            write!(f, ", {} = {}", coordinate.name, Shortest(q.value()))?;
         }
         for (coordinate, v) in d.coordinates.iter().zip(&self.state.v) {
-            write!(f, ", der({}) = {}", coordinate.name, v.value())?;
+            write!(f, ", der({}) = {}", coordinate.name, Shortest(v.value()))?;
         }
         for (name, force) in rows(d).iter().zip(&self.forces) {
-            write!(f, ", force({name}) = {}", force.value())?;
+            write!(f, ", force({name}) = {}", Shortest(force.value()))?;
         }
         for (observe, value) in d.observes.iter().zip(&self.observes) {
-            write!(f, ", {} = {}", observe.name, value.value())?;
+            write!(f, ", {} = {}", observe.name, Shortest(value.value()))?;
         }
         Ok(())
     }

@@ -11,6 +11,7 @@ use crate::error::Error;
 use crate::handle::Subject;
 use crate::integrate::Method;
 use crate::integrate::least_size;
+use crate::shortest::Shortest;
 use crate::system::Description;
 use core::fmt;
 use core::iter::repeat_n;
@@ -226,7 +227,7 @@ impl Difference {
 impl fmt::Display for Parting {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Parting { time, here, there } = self;
-        write!(f, "t = {time}: {here} here, {there} there")
+        write!(f, "t = {}: {here} here, {there} there", Shortest(*time))
     }
 }
 

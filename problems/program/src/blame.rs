@@ -5,6 +5,7 @@
 use crate::outcome::Outcome;
 use crate::request::{Refusal, Request, find_parameters};
 use crate::scene::Scene;
+use lagrange_core::error::Shortest;
 use lagrange_core::prelude::Error;
 
 /// What a refusal tells; with places and the cause if the motion cannot begin.
@@ -89,8 +90,9 @@ fn cause(scene: &dyn Scene, request: &Request) -> Option<String> {
     let place = scene.place(name);
     let place = place.map_or(String::new(), |place| format!(" ({place})"));
     Some(format!(
-        "the cause is `{name}` = {}{place}: with {other} the motion can begin",
-        values[i]
+        "the cause is `{name}` = {}{place}: with {} the motion can begin",
+        Shortest(values[i]),
+        Shortest(other)
     ))
 }
 
@@ -123,6 +125,11 @@ mod tests {
                 said(&[("gravity", 3.0), ("mass", 0.0)], &[]),
                 "fall.lagrange:3:13: t = 0",
                 "; the cause is `mass` = 0 (fall.lagrange:1:12): with 1 the motion can begin",
+            ),
+            (
+                said(&[("mass", 1e308)], &[]),
+                "t = 0",
+                "; the cause is `mass` = 1e308 (fall.lagrange:1:12): with 1 the motion can begin",
             ),
             (
                 said(&[("top", -1.0)], &[]),

@@ -3,6 +3,7 @@
 use crate::names::method_meant;
 use core::fmt;
 use core::str::FromStr;
+use lagrange_core::error::Shortest;
 use lagrange_core::integrate::ParseMethodError;
 use lagrange_core::prelude::Method;
 
@@ -112,7 +113,7 @@ impl fmt::Display for Setting {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.step() {
             None => write!(f, "{} at {:e}", self.name(), self.tolerance),
-            Some(step) => write!(f, "{} with steps of {step} s", self.name()),
+            Some(step) => write!(f, "{} with steps of {} s", self.name(), Shortest(step)),
         }
     }
 }

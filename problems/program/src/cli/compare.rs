@@ -3,6 +3,7 @@
 use super::values::{named, positive, tolerance};
 use crate::names::{method, nearest};
 use crate::request::Request;
+use lagrange_core::error::Shortest;
 use lagrange_core::prelude::Method;
 use std::fmt;
 use std::str::FromStr;
@@ -107,10 +108,10 @@ impl fmt::Display for Comparison {
                 Change::Without(item) => write!(f, "without {item}")?,
                 Change::With(item) => write!(f, "with {item}")?,
                 Change::Set(name, value) | Change::Start(name, value) => {
-                    write!(f, "{name} = {value}")?;
+                    write!(f, "{name} = {}", Shortest(*value))?;
                 }
                 Change::From(start) => write!(f, "from {start}")?,
-                Change::Until(time) => write!(f, "until {time} s")?,
+                Change::Until(time) => write!(f, "until {} s", Shortest(*time))?,
                 Change::Tolerance(tolerance) => write!(f, "tolerance {tolerance:e}")?,
                 Change::Method(method) => write!(f, "{method}")?,
             }

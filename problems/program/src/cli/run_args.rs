@@ -8,6 +8,7 @@ use crate::names::method;
 use crate::request::{Refusal, Request};
 use crate::scene_file::{self, Outputs, SceneFile};
 use clap::Args;
+use lagrange_core::error::Shortest;
 use lagrange_core::prelude::{Impacts, Method};
 use std::path::Path;
 
@@ -109,17 +110,16 @@ impl Motion {
 
     /// The arguments that say the same.
     pub(super) fn arguments(&self) -> Vec<String> {
-        let number = |value: f64| format!("{value:?}").trim_end_matches(".0").to_owned();
         let mut all = Vec::new();
         let mut add = |option: &str, value: String| all.extend([option.to_owned(), value]);
         for (name, value) in &self.set {
-            add("--set", format!("{name}={}", number(*value)));
+            add("--set", format!("{name}={}", Shortest(*value)));
         }
         if let Some(start) = &self.from {
             add("--from", start.clone());
         }
         for (name, value) in &self.start {
-            add("--start", format!("{name}={}", number(*value)));
+            add("--start", format!("{name}={}", Shortest(*value)));
         }
         let lists = [
             ("--with", &self.with),
@@ -130,7 +130,7 @@ impl Motion {
             list.iter().for_each(|word| add(option, word.clone()));
         }
         if let Some(until) = self.until {
-            add("--until", number(until));
+            add("--until", Shortest(until).to_string());
         }
         if let Some(how) = self.impacts {
             add("--impacts", how.to_string());

@@ -5,8 +5,9 @@
 //! known, `x [m]`. Samples at the instant of an event are its two lines.
 
 use super::rows::{Cell, Table};
-use super::{exact, with_unit};
+use super::with_unit;
 use crate::outcome::Outcome;
+use lagrange_core::error::Shortest;
 use std::io::{self, Write};
 
 /// Writes `outcome` as CSV with a header line.
@@ -18,7 +19,7 @@ pub fn write(outcome: &Outcome, out: impl Write) -> io::Result<()> {
     for row in table.rows() {
         let cells = table.cells(&row).into_iter();
         csv.write_record(cells.map(|cell| match cell {
-            Cell::Number(number) => exact(number),
+            Cell::Number(number) => Shortest(number).to_string(),
             Cell::Text(text) => text,
             Cell::Nothing => String::new(),
         }))?;

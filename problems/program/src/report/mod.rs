@@ -118,15 +118,6 @@ pub(crate) fn one_mode(description: &Description) -> bool {
     d.contacts.is_empty() && d.frictions.is_empty() && d.branches.is_empty()
 }
 
-/// A number with all its digits, so that it is read back as it was. Where zeros would only say how small or large it is, an exponent
-/// does.
-pub(crate) fn exact(x: f64) -> String {
-    match x == 0.0 || !x.is_finite() || (1e-5..1e16).contains(&x.abs()) {
-        true => x.to_string(),
-        false => format!("{x:e}"),
-    }
-}
-
 /// To six significant digits: no picture shows more. What is not finite is 0: JSON cannot hold it.
 pub(crate) fn significant(x: f64) -> f64 {
     if !x.is_finite() || x == 0.0 {
@@ -137,29 +128,7 @@ pub(crate) fn significant(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{exact, significant};
-
-    #[test]
-    fn data_is_read_back_as_it_was() {
-        let numbers = [
-            0.0,
-            1.0,
-            -0.1,
-            1e-5,
-            1.5e-55,
-            -9.9e-6,
-            1.0 / 3.0,
-            1e15,
-            1e16,
-            5e-324,
-        ];
-        for x in numbers.into_iter().chain([f64::MAX, f64::INFINITY]) {
-            assert_eq!(exact(x).parse(), Ok(x));
-            assert!(exact(x).len() < 25, "{}", exact(x));
-        }
-        assert_eq!(exact(1.5e-55), "1.5e-55");
-        assert_eq!([exact(1000.0), exact(0.00025)], ["1000", "0.00025"]);
-    }
+    use super::significant;
 
     #[test]
     fn numbers_are_short_and_finite() {

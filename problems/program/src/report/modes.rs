@@ -2,11 +2,12 @@
 
 use super::json::Numbers;
 use super::table::{Decimals, page};
-use super::{exact, with_unit};
+use super::with_unit;
 use crate::feasible::Feasible;
 use crate::notation::{rate_unit, velocity_name};
 use crate::outcome::forces;
 use comfy_table::{CellAlignment, ColumnConstraint, Width};
+use lagrange_core::error::Shortest;
 use lagrange_core::prelude::Instant;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -161,7 +162,9 @@ pub fn csv(found: &Feasible, out: impl Write) -> io::Result<()> {
         .map(|column| with_unit(&column.name, &column.unit));
     writer.write_record(core::iter::once("mode".to_owned()).chain(names))?;
     for (k, now) in found.modes.iter().enumerate() {
-        let numbers = columns.iter().map(|column| exact(column.values[k].1));
+        let numbers = columns
+            .iter()
+            .map(|column| Shortest(column.values[k].1).to_string());
         let mode = now.mode.display(found.description).to_string();
         writer.write_record(core::iter::once(mode).chain(numbers))?;
     }

@@ -3,6 +3,7 @@
 use crate::count::count;
 use core::fmt;
 use core::str::FromStr;
+use lagrange_core::error::Shortest;
 
 /// One number that is varied.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,7 +84,8 @@ impl FromStr for Axis {
 
 impl fmt::Display for Axis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}={}..{}", self.name, self.from, self.to)?;
+        let [from, to] = [self.from, self.to].map(Shortest);
+        write!(f, "{}={from}..{to}", self.name)?;
         if self.count > 0 {
             write!(f, ":{}", self.count)?;
         }

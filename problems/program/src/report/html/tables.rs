@@ -3,9 +3,9 @@
 use super::{Shown, short};
 use crate::notation::{is_angle, symbol};
 use crate::outcome::forces;
-use crate::report::exact;
 use crate::report::table::impulse_unit;
 use crate::report::words::brief;
+use lagrange_core::error::Shortest;
 use lagrange_core::prelude::*;
 use lagrange_engine::inspect::print::mathml::escaped;
 
@@ -119,7 +119,7 @@ fn parameters(run: &Shown) -> String {
         let text = parameter.documentation.trim().lines().next();
         vec![
             escaped(parameter.name),
-            exact(*value),
+            Shortest(*value).to_string(),
             escaped(parameter.unit),
             escaped(text.unwrap_or_default().trim()),
         ]

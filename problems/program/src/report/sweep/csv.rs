@@ -1,8 +1,8 @@
 //! A line per run; what a run does not have is empty, and so is the reason of a failure where there was none.
 
 use super::{Failure, lines, names};
-use crate::report::exact;
 use crate::sweep::{Journal, Sweep};
+use lagrange_core::error::Shortest;
 use std::io::{self, Write};
 
 /// Writes all runs in order, every number in full precision.
@@ -17,7 +17,7 @@ pub fn csv(sweep: &Sweep, journal: &Journal, out: impl Write) -> Result<(), Fail
     lines(sweep, journal, |point, observed, failure| {
         let number = |x: &f64| match x.is_nan() {
             true => String::new(),
-            false => exact(*x),
+            false => Shortest(*x).to_string(),
         };
         let observed = observed.iter().zip(&sweep.observed);
         let observed = observed.map(|(value, observation)| match observation.words(*value) {
