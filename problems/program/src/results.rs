@@ -148,6 +148,7 @@ pub trait Results {
             )
             .film(),
             derivation: motion.derivation(),
+            failure: self.error().map(ToString::to_string),
         };
         if let Some("html" | "htm") = ending {
             return to_file(path, |out| html::write(&[run], None, None, out));

@@ -1,7 +1,7 @@
 //! `lagrange report`: pages are whole, hold the numbers of the run, need no network, and stay small.
 
 use crate::markup::unclosed;
-use crate::program::{refuses, says};
+use crate::program::{folder, lagrange, path, refuses, says, text};
 use expect_test::expect_file;
 use lagrange_problems::catalogue::{self, scenes};
 use lagrange_program::report::html::{self, Shown};
@@ -22,6 +22,7 @@ fn shown(scene: &'static dyn Scene, request: &Request) -> Shown {
         title: scene.name().to_owned(),
         film: scene.film(request).expect("a film"),
         derivation: scene.derivation(),
+        failure: None,
     }
 }
 
@@ -286,6 +287,34 @@ fn what_is_left_out_is_not_in_the_equations() {
     let (equations, _) = equations.split_once("</section>").expect("an end");
     assert!(equations.contains("<h4>rim closed</h4>"));
     assert!(equations.contains("<mi>rim</mi>") && !equations.contains("grip"));
+}
+
+/// A page says why a run failed as the terminal does, with the parameter that is the cause.
+#[test]
+fn a_page_has_the_cause_of_a_failure() {
+    let folder = folder("report-failed");
+    let [file, page] = ["rod.lagrange", "rod.html"].map(|name| folder.join(name));
+    // A rod slides on its tip: Painlevé's paradox, for a friction that is large enough.
+    let declared = "parameters(g = 9.81, mu = 0.4), coordinates(x, y, phi),
+        define(tip = [x - cos(phi), y - sin(phi)]),
+        kinetic = (der(x)^2 + der(y)^2)/2 + der(phi)^2/6, potential = g*y,
+        contact(floor: tip[1] >= 0), friction(grip on floor: slip = der(tip[0]), static = mu),
+        start(pushed: y = sin(1), phi = 1, der(x) = -1), until = 0.01,";
+    std::fs::write(&file, declared).expect("a file");
+    let run = [
+        "report",
+        path(&file),
+        "--set",
+        "mu=2",
+        "--output",
+        path(&page),
+    ];
+    let ended = lagrange(&run);
+    let told = text(&ended.stderr);
+    let cause = "the cause is `mu` = 2 ";
+    assert!(told.contains(cause), "{told}");
+    let page = std::fs::read_to_string(&page).expect("the page");
+    assert!(page.contains(cause), "{told}");
 }
 
 /// On one picture scale, with the distance from the first run: 0 while both stick, exact to what a page shows.

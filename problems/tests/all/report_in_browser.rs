@@ -251,6 +251,57 @@ fn short_modes_share_the_bar() {
     assert!(shares.count() > 40, "{blocks:?}");
 }
 
+/// v = 1 + 1e-7 sin t, and a coordinate of a million: no two numbers of an axis are alike, and with what it is counted from they
+/// are the values.
+#[test]
+fn numbers_of_a_narrow_axis_differ() {
+    let Some(mut browser) = Browser::start() else {
+        return;
+    };
+    let declared =
+        "coordinates(x, y), kinetic = (der(x)^2 + der(y)^2)/2, potential = (y - 2500000)^2/2,
+        force(push: 1e-7 * cos(t) along der(x)), start(out: der(x) = 1, y = 2500400), until = 10,";
+    let file = Written(
+        std::env::temp_dir().join(format!("lagrange-{}-narrow.lagrange", std::process::id())),
+    );
+    std::fs::write(&file.0, declared).expect("a file");
+    let page = Written::report("narrow.html", &[file.0.to_str().expect("a path")]);
+    browser.open(&page.0, AT_A_DESK);
+    let names = "[...document.querySelectorAll('.choices select')][0]";
+    for (quantity, low, high) in [
+        ("dx/dt", 0.999_999_9, 1.000_000_1),
+        ("y", 2_499_600.0, 2_500_400.0),
+    ] {
+        browser.evaluate(&format!(
+            "{names}.value = [...{names}.options].findIndex((option) => option.text === '{quantity}'); {names}.dispatchEvent(new Event('change'))"
+        ));
+        let texts = browser.evaluate(
+            "[...document.querySelector('.choices').closest('figure').querySelectorAll('text')].map((text) => [text.getAttribute('text-anchor') || 'name', text.textContent.replace('−', '-')])",
+        );
+        let texts = texts.as_array().expect("texts");
+        let of = |anchor: &str| -> Vec<&str> {
+            let here = texts.iter().filter(|text| text[0] == anchor);
+            here.filter_map(|text| text[1].as_str()).collect()
+        };
+        let name = of("name").join(" ");
+        let from = name.split_once(" from ");
+        let from: f64 = from.map_or(0.0, |(_, from)| from.parse().expect("a number"));
+        // The name of the other axis is on the right, too.
+        let ticks: Vec<f64> = of("end")
+            .iter()
+            .filter_map(|text| text.parse().ok())
+            .collect();
+        assert!(ticks.len() > 3, "{texts:?}");
+        for pair in ticks.windows(2) {
+            assert!(pair[1] > pair[0], "{texts:?}");
+        }
+        let room = 0.1 * (high - low);
+        let within = |tick: &f64| (low - room..=high + room).contains(&(from + tick));
+        assert!(ticks.iter().all(within), "{texts:?}");
+    }
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
 #[test]
 fn long_equations_stay_on_the_page() {
     let Some(mut browser) = Browser::start() else {

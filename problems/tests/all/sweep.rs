@@ -248,6 +248,36 @@ fn pictures_have_units_and_do_not_grow() {
         "t at grip slips",
     ];
     assert!(draw(&[&leave[..], &curve].concat()).contains("t at grip slips [s]"));
+    // A panel for each unit: two angles share one, whose axis has their unit.
+    let units = ["theta", "leave angle", "count grip slips", "t"].map(|name| ["--observe", name]);
+    for vary in [
+        &["--vary", "mu_static=0.3..1:9"][..],
+        &["--vary", "mu_static=0.3..1", "--sample", "lhs:9"],
+    ] {
+        let curves = draw(&[&units.concat()[..], vary].concat());
+        let heights = |words: &str| -> Vec<f64> {
+            let texts = curves
+                .split("<text ")
+                .filter(|text| text.contains(&format!("\n{words}\n")));
+            let place = |text: &str| text.split_once("y=\"")?.1.split_once('"')?.0.parse().ok();
+            texts.filter_map(place).collect()
+        };
+        let over = heights("μₛ");
+        assert_eq!(over.len(), 3, "{curves}");
+        for (words, panel) in [
+            ("rad", 0),
+            ("θ [rad]", 0),
+            ("leave angle [rad]", 0),
+            ("count grip slips", 1),
+            ("t [s]", 2),
+        ] {
+            let [height] = heights(words)[..] else {
+                panic!("{words}: {curves}")
+            };
+            let above = over.iter().filter(|below| **below < height).count();
+            assert_eq!(above, panel, "{words}");
+        }
+    }
     let sample = [
         "--vary",
         "mu_static=0.3..1",

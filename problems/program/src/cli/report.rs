@@ -8,6 +8,7 @@ use super::terminal::{keep_what_is_done, patiently};
 use super::values::positive;
 use super::watch::watched;
 use super::{Trouble, went_well};
+use crate::blame;
 use crate::catalogue::Catalogue;
 use crate::format::Still;
 use crate::progress::Progress;
@@ -278,6 +279,7 @@ impl Report {
         let film = film.map_err(|refusal| Trouble::refused_run(refusal, scene, &request))?;
         let shown = Shown {
             title: title(name, scene, comparison),
+            failure: blame::failure(scene, &request, &film.outcome),
             film,
             derivation: scene.derivation(),
         };

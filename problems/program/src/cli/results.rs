@@ -17,7 +17,7 @@ pub(super) struct Results {
     /// Write a line per run, as Parquet (….parquet) or CSV (….csv).
     #[arg(long, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
-    /// Draw the first observation, into a file ….svg, ….png or ….pdf: a curve over one axis, a map over two, points of a sample.
+    /// Draw into a file ….svg, ….png or ….pdf: all observations over one axis, a map of the first over two, points of a sample.
     #[arg(long, value_name = "FILE", value_parser = picture)]
     plot: Option<PathBuf>,
     /// In what form to print what came out, in a few numbers; csv: a line per run.

@@ -32,12 +32,35 @@ impl Axis {
         }
     }
 
-    /// Value number `index` of a grid.
+    /// Value number `index` of a grid: 0.1 is 0.1 also where it is three halves of a fifteenth, to rounding.
     pub(super) fn value(&self, index: usize) -> f64 {
-        match self.count {
-            0 | 1 => self.from,
-            _ => self.at(index as f64 / (self.count - 1) as f64),
+        match (self.count, index) {
+            (0 | 1, _) | (_, 0) => self.from,
+            (count, index) if index + 1 == count => self.to,
+            (count, index) => {
+                let value = self.at(index as f64 / (count - 1) as f64);
+                let size = match self.logarithmic {
+                    true => value.abs(),
+                    false => self.from.abs().max(self.to.abs()),
+                };
+                meant(value, size)
+            }
         }
+    }
+}
+
+/// A number of twelve digits where that is all a value is, to the rounding of numbers of this size.
+fn meant(value: f64, size: f64) -> f64 {
+    let decimals = 11.0 - size.log10().floor();
+    if !(0.0..300.0).contains(&decimals) {
+        return value;
+    }
+    let short: f64 = format!("{value:.0$}", decimals as usize)
+        .parse()
+        .unwrap_or(value);
+    match (short - value).abs() <= 8.0 * f64::EPSILON * size {
+        true => short,
+        false => value,
     }
 }
 
@@ -100,6 +123,22 @@ impl fmt::Display for Axis {
 mod tests {
     use super::Axis;
 
+    /// Decimal fractions are those that are read from their digits; a third keeps all of its own.
+    #[test]
+    fn values_of_a_grid_are_those_that_are_meant() {
+        for (axis, step, count) in [("mu=0..0.6:13", 0.05, 13), ("a=-1..1:21", 0.1, 21)] {
+            let axis: Axis = axis.parse().expect("an axis");
+            for i in 0..count {
+                let exact = format!("{:.2}", axis.from + step * i as f64);
+                assert_eq!(Ok(axis.value(i)), exact.parse(), "{i}");
+            }
+        }
+        let axis: Axis = "a=0..1:4".parse().expect("an axis");
+        assert_eq!(axis.value(1), 1.0 / 3.0);
+        let axis: Axis = "a=1e-30..4e-30:4".parse().expect("an axis");
+        assert_eq!(axis.value(1), 2e-30);
+    }
+
     #[test]
     fn axes_are_read() {
         let axis: Axis = "mu = 0.1..1:4".parse().expect("an axis");
@@ -111,7 +150,7 @@ mod tests {
         let axis: Axis = "mu=0.1..1".parse().expect("an axis");
         assert_eq!((axis.count, axis.to_string().as_str()), (0, "mu=0.1..1"));
         let axis: Axis = "k=1e-2..1e4:7:log".parse().expect("an axis");
-        assert!((axis.value(3) - 10.0).abs() < 1e-13 && axis.value(6) == 1e4);
+        assert!(axis.value(3) == 10.0 && axis.value(6) == 1e4);
         for wrong in [
             "",
             "mu",

@@ -25,6 +25,8 @@ pub struct Shown {
     pub film: Film,
     /// What was derived for the scene.
     pub derivation: &'static Derivation,
+    /// Why the run failed, if it has.
+    pub failure: Option<String>,
 }
 
 const PAGE: &str = include_str!("page.html");
@@ -126,13 +128,13 @@ fn section((index, run): (usize, &Shown), several: bool) -> String {
     let title = escaped(&run.title);
     let summary = run.film.outcome.description.documentation.trim();
     let summary = escaped(summary.lines().next().unwrap_or_default().trim());
-    let failure = match &run.film.outcome.failure {
-        Some(error) => format!(
+    let failure = run.failure.as_ref().map(|told| {
+        format!(
             "<p class=\"failure\"><strong>The run failed:</strong> {}</p>\n",
-            escaped(&error.to_string())
-        ),
-        None => String::new(),
-    };
+            escaped(told)
+        )
+    });
+    let failure = failure.unwrap_or_default();
     let level = if several { "h2" } else { "h1" };
     let mut equations = equations::equations(run);
     if !several {
@@ -183,6 +185,7 @@ mod tests {
             title: "shown".to_owned(),
             film: scene.film(&request).expect("a run"),
             derivation: scene.derivation(),
+            failure: None,
         }
     }
 

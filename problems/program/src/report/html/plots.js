@@ -15,6 +15,15 @@ function paper(figure) {
   return { root, glass, left: 62, right: width - 12, top: 26, bottom: height - 40, width, height };
 }
 
+// What the numbers of an axis are counted from: where values hardly change beside their size, a round number near them, so that
+// the numbers are short and differ.
+function origin(low, high) {
+  const length = high - low;
+  if (length >= 1e-4 * Math.max(Math.abs(low), Math.abs(high))) return { number: 0, text: "" };
+  const power = Math.ceil(Math.log10(length)), text = (Math.round((low + high) / 2 / 10 ** power) * 10 ** power).toFixed(Math.min(Math.max(-power, 0), 100));
+  return { number: Number(text), text: ` from ${text.replace("-", "−")}` };
+}
+
 // Axes with ticks around ranges; gives the scales.
 function axes(box, [x0, x1], [y0, y1], xName, yName) {
   const { root, right, top, bottom, height } = box;
@@ -23,22 +32,24 @@ function axes(box, [x0, x1], [y0, y1], xName, yName) {
   [y0, y1] = widen(y0, y1);
   const air = 0.05 * (y1 - y0);
   [y0, y1] = [y0 - air, y1 + air];
+  const [xFrom, yFrom] = [origin(x0, x1), origin(y0, y1)];
   const Y = (y) => bottom - ((y - y0) / (y1 - y0)) * (bottom - top);
-  const ticks = (from, to, most) => {
+  const ticks = (low, high, base, most) => {
+    const [from, to] = [low - base.number, high - base.number];
     const step = nice((2.4 * (to - from)) / most), decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9)), list = [];
     const plain = Math.max(Math.abs(from), Math.abs(to)) < 1e6 && decimals < 7;
     for (let i = Math.ceil(from / step); i * step <= to; i++) {
-      const text = plain ? (i * step).toFixed(decimals) : (i * step).toPrecision(3);
-      list.push([i * step, text.replace(/^-(?=0\.?0*$)/, "").replace("-", "−")]);
+      const text = plain ? (i * step).toFixed(decimals) : i ? Number((i * step).toPrecision(6)).toExponential().replace("+", "") : "0";
+      list.push([base.number + i * step, text.replace(/^-(?=0\.?0*$)/, "").replace("-", "−")]);
     }
     return list;
   };
-  const steps = ticks(y0, y1, 10);
+  const steps = ticks(y0, y1, yFrom, 10);
   // Long numbers need room.
   const left = (box.left = Math.max(box.left, 12 + 7.5 * Math.max(...steps.map(([, text]) => text.length))));
   const X = (x) => left + ((x - x0) / (x1 - x0)) * (right - left);
-  const across = ticks(x0, x1, (right - left) / 45), letters = Math.max(...across.map(([, text]) => text.length));
-  for (const [x, text] of letters > 7 ? ticks(x0, x1, (right - left) / (10 * letters)) : across) {
+  const across = ticks(x0, x1, xFrom, (right - left) / 45), letters = Math.max(...across.map(([, text]) => text.length));
+  for (const [x, text] of letters > 7 ? ticks(x0, x1, xFrom, (right - left) / (10 * letters)) : across) {
     svg("line", { class: "grid", x1: X(x), x2: X(x), y1: top, y2: bottom }, root);
     // The last one may end where the picture does.
     const middle = Math.min(X(x), box.width - 4 * text.length);
@@ -48,8 +59,8 @@ function axes(box, [x0, x1], [y0, y1], xName, yName) {
     svg("line", { class: "grid", x1: left, x2: right, y1: Y(y), y2: Y(y) }, root);
     svg("text", { class: "words", x: left - 6, y: Y(y) + 4, "text-anchor": "end" }, root).textContent = text;
   }
-  svg("text", { class: "words", x: right, y: height - 6, "text-anchor": "end" }, root).textContent = xName;
-  svg("text", { class: "words", x: 4, y: 14 }, root).textContent = yName;
+  svg("text", { class: "words", x: right, y: height - 6, "text-anchor": "end" }, root).textContent = xName + xFrom.text;
+  svg("text", { class: "words", x: 4, y: 14 }, root).textContent = yName + yFrom.text;
   return { X, Y, x0, x1 };
 }
 

@@ -47,7 +47,7 @@ const NAMES: u32 = 150 * FINE;
 const NAME_LINE: u32 = 19 * FINE;
 const MOST_NAMES: usize = 40;
 /// Width of a letter of a name, about.
-const LETTER: u32 = 7 * FINE;
+pub(super) const LETTER: u32 = 7 * FINE;
 /// Room around the key.
 const MARGIN: u32 = 14 * FINE;
 

@@ -34,7 +34,7 @@ impl Frame {
     }
 
     pub(super) fn right(&self) -> i32 {
-        WIDTH as i32 - px(150)
+        WIDTH as i32 - px(196)
     }
 
     pub(super) fn top(&self) -> i32 {

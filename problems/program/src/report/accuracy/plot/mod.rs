@@ -86,9 +86,20 @@ fn draw<'a>(root: &Area<'a>, accuracy: &Accuracy, frame: &Frame, curves: &[Curve
     foot(root, accuracy)
 }
 
+/// Room between the diagram and the key.
+const BESIDE: i32 = 18;
+
+/// Room before a name of the key, for a piece of the curve.
+const BEFORE: i32 = 36;
+
+/// What the key says of a method without a point.
+fn without_result(name: &str) -> String {
+    format!("{name}: no result")
+}
+
 /// Names of the methods, right of the diagram.
 fn key<'a>(root: &Area<'a>, frame: &Frame, curves: &[Curve]) -> Drawn<'a> {
-    let left = frame.right() + px(18);
+    let left = frame.right() + px(BESIDE);
     for (line, curve) in curves.iter().enumerate() {
         let y = frame.top() + px(12 + 24 * line as i32);
         let there = !curve.points.is_empty();
@@ -103,10 +114,10 @@ fn key<'a>(root: &Area<'a>, frame: &Frame, curves: &[Curve]) -> Drawn<'a> {
         let shade = BLACK.mix(if there { 1.0 } else { 0.45 });
         let name = match there {
             true => curve.setting.name().to_owned(),
-            false => format!("{}: no result", curve.setting.name()),
+            false => without_result(curve.setting.name()),
         };
         let style = words(14, &shade, HPos::Left, VPos::Center);
-        root.draw(&Text::new(name, (left + px(36), y), style))?;
+        root.draw(&Text::new(name, (left + px(BEFORE), y), style))?;
     }
     Ok(())
 }
@@ -137,4 +148,21 @@ fn foot<'a>(root: &Area<'a>, accuracy: &Accuracy) -> Drawn<'a> {
         root.draw(&Text::new(text, (px(14), y), style.clone()))?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::plot::{LETTER, WIDTH};
+
+    #[test]
+    fn the_key_ends_before_the_picture_does() {
+        let frame = Frame::around([(1e-6, 1e-3)].into_iter(), 1e-15).expect("a point");
+        for family in Family::ALL {
+            let text = without_result(&family.to_string());
+            let end =
+                frame.right() + px(BESIDE + BEFORE) + (text.chars().count() as u32 * LETTER) as i32;
+            assert!(end <= WIDTH as i32, "{text}");
+        }
+    }
 }

@@ -1,14 +1,17 @@
-//! Curves over the one axis of a grid.
+//! Curves over the one axis of a grid, and the panels of what is drawn over one axis: what has one unit is on one scale.
 
 use super::colours::Look;
 use super::frame::Frame;
 use super::marks::Marks;
 use super::scale::Scale;
 use super::{HEIGHT, Picture, columns, observed, varied};
-use crate::report::plot::{COLOURS, px};
+use crate::report::plot::{COLOURS, FINE, px};
 use crate::report::sweep::{Failure, lines};
 use crate::sweep::{Journal, Sweep};
 use plotters::style::RGBColor;
+
+/// Height of one of several panels.
+const PANEL: u32 = 320 * FINE;
 
 /// Most pieces that a curve is drawn in.
 const MOST: usize = 1500;
@@ -26,7 +29,7 @@ pub(super) fn curves(sweep: &Sweep, journal: &Journal) -> Result<Option<Picture>
     let (_, numbers) = columns(sweep);
     let mut pieces: Vec<Vec<Option<Piece>>> = vec![vec![None; count]; numbers.len()];
     let mut failed = vec![false; count];
-    let mut edges: Option<(f64, f64)> = None;
+    let mut edges: Vec<Option<(f64, f64)>> = vec![None; sweep.observed.len()];
     let mut index = 0;
     lines(sweep, journal, |_, observed, failure| {
         let place = index * count / axis.count;
@@ -37,8 +40,7 @@ pub(super) fn curves(sweep: &Sweep, journal: &Journal) -> Result<Option<Picture>
             if value.is_nan() {
                 continue;
             }
-            let (low, high) = edges.unwrap_or((value, value));
-            edges = Some((low.min(value), high.max(value)));
+            edges[index] = joined(edges[index], Some((value, value)));
             let [first, least, most, _] = pieces[place].map_or([value; 4], |piece| piece.ends);
             pieces[place] = Some(Piece {
                 ends: [first, least.min(value), most.max(value), value],
@@ -46,21 +48,31 @@ pub(super) fn curves(sweep: &Sweep, journal: &Journal) -> Result<Option<Picture>
         }
         Ok(())
     })?;
-    let Some((low, high)) = edges else {
+    let panels = panels(sweep, Scale::of(axis, 0.5), |numbers| {
+        numbers.iter().map(|index| edges[*index]).fold(None, joined)
+    });
+    let Some((first, _)) = panels.first() else {
         return Ok(None);
     };
-    let frame = frame(sweep, Scale::of(axis, 0.5), (low, high));
     let mut marks = Marks::of_size(px(2));
     let down = axis.from > axis.to;
     let edge = |i: usize| {
         let part = i as f64 / count as f64;
-        frame.column(if down { 1.0 - part } else { part })
+        first.column(if down { 1.0 - part } else { part })
     };
     for (i, _) in failed.iter().enumerate().filter(|(_, failed)| **failed) {
         let (from, to) = (edge(i).min(edge(i + 1)), edge(i).max(edge(i + 1)));
-        marks.cell(Look::Failed, (from, frame.top), (to, frame.bottom));
+        for (frame, _) in &panels {
+            marks.cell(Look::Failed, (from, frame.top), (to, frame.bottom));
+        }
     }
-    for (pieces, colour) in pieces.iter().zip(COLOURS.iter().cycle()) {
+    let curves = panels.iter().flat_map(|(frame, indices)| {
+        let coloured = indices.iter().zip(COLOURS.iter().cycle());
+        coloured.map(move |(index, colour)| (frame, index, colour))
+    });
+    for (frame, index, colour) in curves {
+        let place = numbers.iter().position(|number| number == index);
+        let pieces = place.map_or(&[][..], |place| &pieces[place]);
         let mut curve: Vec<(i32, i32)> = Vec::new();
         for (i, piece) in pieces.iter().enumerate() {
             let Some(piece) = piece else {
@@ -82,12 +94,11 @@ pub(super) fn curves(sweep: &Sweep, journal: &Journal) -> Result<Option<Picture>
             } else {
                 ""
             },
-        names: names(sweep),
-        frame,
         colours: None,
         marks,
         key: Vec::new(),
-        height: HEIGHT,
+        height: height(panels.len()),
+        frames: panels.into_iter().map(|(frame, _)| frame).collect(),
     }))
 }
 
@@ -95,26 +106,59 @@ pub(super) fn look(RGBColor(r, g, b): RGBColor) -> Look {
     Look::Plain(r, g, b)
 }
 
-/// Observations in their colours, if there are several; one is named on the axis.
-pub(super) fn names(sweep: &Sweep) -> Vec<(String, RGBColor)> {
-    let (_, several) = columns(sweep);
-    let names = several.iter().map(|index| observed(sweep, *index));
-    names
-        .filter(|_| several.len() > 1)
-        .zip(COLOURS.iter().copied().cycle())
-        .collect()
+/// What two ranges span.
+fn joined(one: Option<(f64, f64)>, other: Option<(f64, f64)>) -> Option<(f64, f64)> {
+    match (one, other) {
+        (Some((low, high)), Some((below, above))) => Some((low.min(below), high.max(above))),
+        _ => one.or(other),
+    }
 }
 
-/// The frame of values over the first axis.
-pub(super) fn frame(sweep: &Sweep, x: Scale, (low, high): (f64, f64)) -> Frame {
-    let (_, numbers) = columns(sweep);
-    let all: Vec<String> = numbers.iter().map(|i| sweep.unit_observed(*i)).collect();
-    let y = match (&all[..], &numbers[..]) {
-        (_, [one]) => observed(sweep, *one),
-        // A unit that all have in common.
-        ([first, rest @ ..], _) if rest.iter().all(|unit| unit == first) => first.clone(),
-        _ => String::new(),
-    };
-    let y = (Scale::around(low, high, 0.05), y);
-    Frame::new((x, varied(sweep, 0)), y, true, numbers.len())
+/// A panel of values over the first axis for each unit, with the observations in it; none for what no run has.
+pub(super) fn panels(
+    sweep: &Sweep,
+    x: Scale,
+    edges: impl Fn(&[usize]) -> Option<(f64, f64)>,
+) -> Vec<(Frame, Vec<usize>)> {
+    let mut units: Vec<(String, Vec<usize>)> = Vec::new();
+    for index in columns(sweep).1 {
+        let unit = sweep.unit_observed(index);
+        match units.iter_mut().find(|(known, _)| *known == unit) {
+            Some((_, numbers)) => numbers.push(index),
+            None => units.push((unit, vec![index])),
+        }
+    }
+    let spans = units.into_iter();
+    let spans: Vec<_> = spans
+        .filter_map(|(unit, numbers)| Some((edges(&numbers)?, unit, numbers)))
+        .collect();
+    let height = height(spans.len()) as i32 / spans.len().max(1) as i32;
+    let framed = (0..)
+        .zip(spans)
+        .map(|(place, ((low, high), unit, numbers))| {
+            let names: Vec<String> = numbers
+                .iter()
+                .map(|index| observed(sweep, *index))
+                .collect();
+            let (name, names) = match &names[..] {
+                [only] => (only.clone(), Vec::new()),
+                _ => (unit, names),
+            };
+            let names = names.into_iter().zip(COLOURS.iter().copied().cycle());
+            let y = (Scale::around(low, high, 0.05), name);
+            let frame = Frame::new((x, varied(sweep, 0)), y);
+            (
+                frame.lined((place * height, height), names.collect()),
+                numbers,
+            )
+        });
+    framed.collect()
+}
+
+/// Height of a picture with so many panels.
+pub(super) fn height(panels: usize) -> u32 {
+    match panels {
+        0 | 1 => HEIGHT,
+        several => several as u32 * PANEL,
+    }
 }

@@ -1,12 +1,12 @@
 //! The points of a sample: values over one axis, colours over two.
 
 use super::colours::{Colours, Look};
-use super::curves::{frame, look, names};
+use super::curves::{height, look, panels};
 use super::frame::Frame;
 use super::marks::Marks;
 use super::regions::Regions;
 use super::scale::Scale;
-use super::{HEIGHT, Picture, columns, heading, observed, varied};
+use super::{HEIGHT, Picture, heading, observed, varied};
 use crate::report::plot::{COLOURS, px};
 use crate::report::sweep::{Failure, lines};
 use crate::sweep::{Journal, Sweep};
@@ -59,16 +59,20 @@ fn note(sweep: &Sweep, dots: &[Dot]) -> String {
 /// `None` if no run has what was observed.
 pub(super) fn over_one(sweep: &Sweep, journal: &Journal) -> Result<Option<Picture>, Failure> {
     let dots = dots(sweep, journal)?;
-    let (_, numbers) = columns(sweep);
-    let values = dots
-        .iter()
-        .flat_map(|dot| numbers.iter().map(|index| &dot.observed[*index]));
-    let Some(edges) = edges(values) else {
+    let panels = panels(sweep, Scale::of(&sweep.points.axes[0], 0.0), |numbers| {
+        edges(
+            dots.iter()
+                .flat_map(|dot| numbers.iter().map(|index| &dot.observed[*index])),
+        )
+    });
+    if panels.is_empty() {
         return Ok(None);
-    };
-    let frame = frame(sweep, Scale::of(&sweep.points.axes[0], 0.0), edges);
+    }
     let mut marks = marks(&dots);
-    for dot in &dots {
+    for (dot, (frame, numbers)) in dots
+        .iter()
+        .flat_map(|dot| panels.iter().map(move |panel| (dot, panel)))
+    {
         for (index, colour) in numbers.iter().zip(COLOURS.iter().cycle()) {
             let value = dot.observed[*index];
             if !value.is_nan() {
@@ -87,12 +91,11 @@ pub(super) fn over_one(sweep: &Sweep, journal: &Journal) -> Result<Option<Pictur
     };
     Ok(Some(Picture {
         heading: format!("{}{}{crosses}", sweep.scene.name(), note(sweep, &dots)),
-        names: names(sweep),
-        frame,
         colours: None,
         marks,
         key: Vec::new(),
-        height: HEIGHT,
+        height: height(panels.len()),
+        frames: panels.into_iter().map(|(frame, _)| frame).collect(),
     }))
 }
 
@@ -113,8 +116,6 @@ pub(super) fn over_two(sweep: &Sweep, journal: &Journal) -> Result<Option<Pictur
     let frame = Frame::new(
         (Scale::of(&axes[0], 0.0), varied(sweep, 0)),
         (Scale::of(&axes[1], 0.0), varied(sweep, 1)),
-        false,
-        0,
     );
     let mut marks = marks(&dots);
     for dot in &dots {
@@ -129,8 +130,7 @@ pub(super) fn over_two(sweep: &Sweep, journal: &Journal) -> Result<Option<Pictur
     marks.explain();
     let mut picture = Picture {
         heading: heading(sweep) + &note(sweep, &dots),
-        names: Vec::new(),
-        frame,
+        frames: vec![frame],
         colours: (!sequences).then_some(colours),
         marks,
         key: Vec::new(),

@@ -10,7 +10,13 @@ use plotters::style::text_anchor::{HPos, VPos};
 /// Room to the right for a scale of colours and a key.
 const BESIDE: i32 = 150;
 
-/// Where the picture is, and what its edges mean.
+/// Height of a name.
+const LINE: i32 = 18;
+
+/// Room to the left for numbers and the name of an axis.
+pub(super) const LEFT: i32 = 86;
+
+/// Where a panel is, and what its edges mean.
 pub(super) struct Frame {
     pub(super) left: i32,
     pub(super) right: i32,
@@ -20,23 +26,37 @@ pub(super) struct Frame {
     pub(super) y: Scale,
     x_name: String,
     y_name: String,
+    /// Of what there are lines to read heights from, in their colours; a single one is named on the axis.
+    names: Vec<(String, RGBColor)>,
     lines: bool,
 }
 
 impl Frame {
-    /// With scales and names. Beside it is room for a scale of colours, or inside there are lines to read heights from, below
-    /// `names` lines of names.
-    pub(super) fn new(x: (Scale, String), y: (Scale, String), lines: bool, names: usize) -> Self {
+    /// The only panel of a picture, with scales and names, and with room for a scale of colours beside it.
+    pub(super) fn new(x: (Scale, String), y: (Scale, String)) -> Self {
         Self {
-            left: px(86),
-            right: WIDTH as i32 - px(if lines { 24 } else { BESIDE }),
-            top: px(42 + 18 * (names.max(1) as i32 - 1)),
+            left: px(LEFT),
+            right: WIDTH as i32 - px(BESIDE),
+            top: px(42),
             bottom: HEIGHT as i32 - px(58),
             x: x.0,
             y: y.0,
             x_name: x.1,
             y_name: y.1,
-            lines,
+            names: Vec::new(),
+            lines: false,
+        }
+    }
+
+    /// A panel of this height at this place, as wide as the picture, with lines to read heights from.
+    pub(super) fn lined(self, (above, height): (i32, i32), names: Vec<(String, RGBColor)>) -> Self {
+        Self {
+            right: WIDTH as i32 - px(24),
+            top: above + px(42 + LINE * (names.len().max(1) as i32 - 1)),
+            bottom: above + height - px(58),
+            names,
+            lines: true,
+            ..self
         }
     }
 
@@ -57,6 +77,11 @@ impl Frame {
 
     pub(super) fn draw<'a>(&self, root: &Area<'a>) -> Drawn<'a> {
         let (left, right, top, bottom) = (self.left, self.right, self.top, self.bottom);
+        for (line, (name, colour)) in self.names.iter().rev().enumerate() {
+            let style = words(14, colour, HPos::Right, VPos::Center);
+            let place = (right, top - px(22 + LINE * line as i32));
+            root.draw_text(name, &style, place)?;
+        }
         let line = |from, to, shade: f64| {
             let style = BLACK.mix(shade).stroke_width(FINE);
             root.draw(&PathElement::new(vec![from, to], style))

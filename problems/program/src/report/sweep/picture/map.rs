@@ -67,8 +67,6 @@ pub(super) fn map(sweep: &Sweep, journal: &Journal) -> Result<Option<Picture>, F
     let frame = Frame::new(
         (Scale::of(x, 0.5), varied(sweep, 0)),
         (Scale::of(y, 0.5), varied(sweep, 1)),
-        false,
-        0,
     );
     let look = |cell: &Cell| match (cell.value(), cell.sequence) {
         (_, Some(number)) if by_modes => regions.look(number as f64),
@@ -110,8 +108,7 @@ pub(super) fn map(sweep: &Sweep, journal: &Journal) -> Result<Option<Picture>, F
     }
     let mut picture = Picture {
         heading,
-        names: Vec::new(),
-        frame,
+        frames: vec![frame],
         colours: (!by_modes).then_some(colours),
         marks,
         key: Vec::new(),

@@ -1,4 +1,4 @@
-//! Sweep → SVG: curves over one axis, a map over two, the points of a sample.
+//! Sweep → SVG: curves over one axis, a panel for each unit; a map over two; the points of a sample.
 //!
 //! Where `modes` are observed, sequences of modes are regions, or have lines between them. Where runs failed the picture is hatched, where they do not have what was observed it is grey. Pictures do not grow with the sweep: cells that are too
 //! many are put together, of many points the first are drawn.
@@ -29,9 +29,8 @@ const HEIGHT: u32 = 520 * FINE;
 /// What a kind of picture puts together before anything is drawn.
 struct Picture {
     heading: String,
-    /// Names in colours, at the top.
-    names: Vec<(String, RGBColor)>,
-    frame: Frame,
+    /// The panels, one below the other.
+    frames: Vec<Frame>,
     /// The scale of colours, with its name.
     colours: Option<Colours>,
     marks: Marks,
@@ -82,12 +81,9 @@ fn reason(text: String) -> Failure {
 fn draw<'a>(root: &Area<'a>, picture: &Picture) -> Drawn<'a> {
     let heading = words(17, &BLACK, HPos::Left, VPos::Center);
     root.draw_text(&picture.heading, &heading, (px(14), px(20)))?;
-    for (line, (name, colour)) in picture.names.iter().enumerate() {
-        let style = words(14, colour, HPos::Right, VPos::Center);
-        let place = (picture.frame.right, px(20 + 18 * line as i32));
-        root.draw_text(name, &style, place)?;
+    for frame in &picture.frames {
+        frame.draw(root)?;
     }
-    picture.frame.draw(root)?;
     if let Some(colours) = &picture.colours {
         frame::colour_scale(root, colours)?;
     }

@@ -1,6 +1,7 @@
 //! Which mode sequences a picture tells apart: the most frequent, each with a colour and a line of a key below the picture.
 
 use super::colours::Look;
+use super::frame::LEFT;
 use super::marks::Marks;
 use super::{HEIGHT, Picture};
 use crate::report::plot::px;
@@ -75,7 +76,7 @@ impl Regions {
         }
         for (line, (look, words)) in (0..).zip(lines) {
             let y = HEIGHT as i32 + LINE * px(line) + px(4);
-            let (left, right) = (picture.frame.left, picture.frame.left + px(16));
+            let (left, right) = (px(LEFT), px(LEFT + 16));
             picture
                 .marks
                 .cell(look, (left, y - px(7)), (right, y + px(7)));
