@@ -243,6 +243,33 @@ fn effects_say_why_a_run_fails_without_one() {
     );
 }
 
+/// Three masses on a table, without it: two fall freely, g t²/2 in a second, one is held by its part of it.
+#[test]
+fn an_array_is_left_out_by_its_name() {
+    let folder = folder("array left out");
+    let shelf = "coordinates(y[3]), kinetic = sum(k in 0..3: der(y[k])^2/2), potential = sum(k in 0..3: 10 * y[k]),
+        contact(top[k in 0..3]: y[k] >= 0), start(still), until = 1,";
+    fs::write(folder.join("shelf.lagrange"), shelf).expect("a file");
+    let run = [
+        "run",
+        "shelf.lagrange",
+        "--without",
+        "top",
+        "--with",
+        "top[1]",
+        "--format",
+        "json",
+    ];
+    let output = lagrange_in(&folder, &run);
+    let told: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(told["without"], serde_json::json!(["top[0]", "top[2]"]));
+    for (k, expected) in [-5.0, 0.0, -5.0].into_iter().enumerate() {
+        let y = told["final"]["state"][format!("y[{k}]")].as_f64();
+        let y = y.unwrap_or_else(|| panic!("{told:#}"));
+        assert!((y - expected).abs() < 1e-9, "y[{k}] = {y}");
+    }
+}
+
 /// Five masses on a table: of so many contacts a story says in brief what they do, and what changes.
 #[test]
 fn of_many_items_a_story_says_what_changes() {

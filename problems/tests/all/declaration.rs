@@ -137,6 +137,11 @@ fn new_writes_what_runs() {
         fs::read_to_string(folder.join("swing.lagrange")).expect("it"),
         TEMPLATE
     );
+    let output = lagrange_in(&folder, &["new", "x y"]);
+    assert_eq!(
+        text(&output.stdout),
+        "x y.lagrange is written; run it: lagrange run 'x y.lagrange'\n"
+    );
     assert_eq!(
         lagrange_in(&folder, &["run", "swing.lagrange"])
             .status

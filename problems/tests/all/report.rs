@@ -348,6 +348,10 @@ fn mistakes_are_told() {
     };
     refused("witout:grip", "did you mean `without:`?");
     refused("without:gripp", "did you mean `grip`?");
+    refused(
+        "foo",
+        "there are without:ITEM, with:ITEM, set:NAME=VALUE, start:NAME=VALUE, from:START, until:T, tolerance:X, method:M",
+    );
     refuses(
         &["report", "mass-on-whele"],
         2,

@@ -76,13 +76,13 @@ fn change(text: &str) -> Result<Change, String> {
     let (kind, value) = (kind.trim(), value.trim());
     let Some((_, meant)) = KINDS.iter().find(|(name, _)| *name == kind) else {
         let names = KINDS.map(|(name, _)| name);
-        let near = nearest(kind, &names).map(|near| format!("; did you mean `{near}:`?"));
+        let near = nearest(kind, &names).map(|near| format!("did you mean `{near}:`? "));
+        let near = near.unwrap_or_default();
         let all = KINDS
             .map(|(name, meant)| format!("{name}:{meant}"))
             .join(", ");
-        return Err(near.map_or(
-            format!("`{kind}` cannot be compared; say one of {all}"),
-            |near| format!("`{kind}` cannot be compared{near}"),
+        return Err(format!(
+            "`{kind}` cannot be compared; {near}there are {all}"
         ));
     };
     if value.is_empty() {

@@ -2,6 +2,7 @@
 
 use super::Trouble;
 use super::output::{ready, to_file};
+use super::shell;
 use crate::file::{self, ENDING, TEMPLATE};
 use clap::Args;
 use std::fs;
@@ -82,7 +83,8 @@ impl New {
         }
         ready(Some(Path::new(&shown)), &[])?;
         to_file(Path::new(&shown), |out| out.write_all(TEMPLATE.as_bytes()))?;
-        super::print(|out| writeln!(out, "{shown} is written; run it: lagrange run {shown}"))
+        let command = shell::command(["run".to_owned(), shown.clone()]);
+        super::print(|out| writeln!(out, "{shown} is written; run it: {command}"))
     }
 }
 

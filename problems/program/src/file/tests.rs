@@ -157,6 +157,18 @@ fn what_only_a_file_has_is_checked() {
             "1:45: expected a time after the start, which is at 0, as in `until = 5`, found `-5` [E001]",
         ),
         (
+            format!("{rest}, until = 10s"),
+            "1:45: expected a number of seconds without a unit, as in `until = 10`, found `10s` [E001]",
+        ),
+        (
+            format!("{rest}, until = 10 s"),
+            "1:48: expected a number of seconds without a unit, as in `until = 10`, found `s` [E001]",
+        ),
+        (
+            format!("{rest}, until = \"10 s\""),
+            "1:45: expected a number of seconds without a unit, as in `until = 10`, found `\"10 s\"` [E001]",
+        ),
+        (
             format!("{rest}, until = 0"),
             "1:45: expected a time after the start, which is at 0, as in `until = 5`, found `0` [E001]",
         ),

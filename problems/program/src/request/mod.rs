@@ -10,7 +10,7 @@ use core::ops::RangeInclusive;
 use event::event;
 use lagrange_core::effects::Item;
 use lagrange_core::prelude::*;
-use lagrange_core::system::{AnySystem, Description, Parameter};
+use lagrange_core::system::{AnySystem, Description};
 use std::collections::BTreeSet;
 
 /// Most intervals that a run is sampled at: their numbers are kept in memory.
@@ -301,11 +301,12 @@ impl Request {
     pub(crate) fn effects(&self, description: &'static Description) -> Result<Effects, Refusal> {
         let mut off = BTreeSet::new();
         for (name, on) in &self.effects {
-            let item = find_effect(description, name)?;
-            match on {
-                true => off.remove(&item),
-                false => off.insert(item),
-            };
+            for item in find_effects(description, name)? {
+                match on {
+                    true => off.remove(&item),
+                    false => off.insert(item),
+                };
+            }
         }
         Ok(off.into_iter().fold(Effects::all(), Effects::without))
     }
@@ -408,33 +409,38 @@ pub(crate) fn find_parameter(
         .ok_or_else(|| Refusal::unknown("parameter", name, known()))
 }
 
+/// Whether `name` means what is called so: by its own name, or by that of the array whose element it is.
+fn means(name: &str, called: &str) -> bool {
+    let array = called.split_once('[').map_or(called, |(array, _)| array);
+    name == called || name == array
+}
+
 /// Indices of what `name` means: a parameter, or all elements of an array.
 pub(crate) fn find_parameters(
     description: &'static Description,
     name: &str,
 ) -> Result<Vec<usize>, Refusal> {
-    let element = |p: &Parameter| {
-        p.name
-            .split_once('[')
-            .is_some_and(|(array, _)| array == name)
-    };
-    let parameters = description.parameters.iter().enumerate();
-    let elements: Vec<usize> = parameters
-        .filter(|(_, p)| element(p))
-        .map(|(i, _)| i)
-        .collect();
-    match elements.is_empty() {
-        true => Ok(vec![find_parameter(description, name)?]),
-        false => Ok(elements),
+    let known = || description.parameters.iter().map(|p| p.name);
+    let found = known().enumerate().filter(|(_, known)| means(name, known));
+    let found: Vec<usize> = found.map(|(i, _)| i).collect();
+    match found.is_empty() {
+        true => Err(Refusal::unknown("parameter", name, known())),
+        false => Ok(found),
     }
 }
 
-/// The item called `name` that can be switched off.
-pub(crate) fn find_effect(description: &'static Description, name: &str) -> Result<Item, Refusal> {
+/// What `name` means of all that can be switched off: an item, or all elements of an array.
+pub(crate) fn find_effects(
+    description: &'static Description,
+    name: &str,
+) -> Result<Vec<Item>, Refusal> {
     let known = || Item::all(description);
-    known()
-        .find(|item| item.name(description) == name)
-        .ok_or_else(|| Refusal::unknown("effect", name, known().map(|i| i.name(description))))
+    let called = |item: Item| item.name(description);
+    let found: Vec<Item> = known().filter(|item| means(name, called(*item))).collect();
+    match found.is_empty() {
+        true => Err(Refusal::unknown("effect", name, known().map(called))),
+        false => Ok(found),
+    }
 }
 
 /// Index of the named start called `name`.

@@ -9,7 +9,7 @@ use crate::names::{self, nearest};
 use crate::quantity::Show;
 use crate::request::event::event;
 use crate::request::{
-    ERRORS, MOST_SAMPLES, Refusal, Request, TOLERANCES, find_coordinate, find_effect,
+    ERRORS, MOST_SAMPLES, Refusal, Request, TOLERANCES, find_coordinate, find_effects,
     find_parameters, find_start, find_state,
 };
 use clap::ValueEnum;
@@ -110,7 +110,7 @@ fn contents(
             }
             "effects" => {
                 request.effects = reader.pairs(value, |key, value| {
-                    refused(key, find_effect(d, key.get_ref()))?;
+                    refused(key, find_effects(d, key.get_ref()))?;
                     Ok((key.get_ref().to_string(), flag(value)?))
                 });
             }

@@ -36,6 +36,14 @@ impl Parameters {
                 part.skip_all();
                 return None;
             }
+            if let Some(unit) = unit_of_time(part) {
+                unit.expected(
+                    "a number of seconds without a unit, as in `until = 10`",
+                    sink,
+                );
+                part.skip_all();
+                return None;
+            }
             once(&mut self.until, whole(part, sink)?, keyword, sink);
             return Some(());
         }
@@ -49,6 +57,21 @@ impl Parameters {
         self.fields
             .extend(every(inside.parts(example, sink), sink, parameter)?);
         Some(())
+    }
+}
+
+/// Where a time has a unit, `10s`, `10 s` or `"10 s"`: at the number, if the unit is in one token with it.
+fn unit_of_time(part: &Cursor) -> Option<Cursor> {
+    let mut behind = part.clone();
+    let Some(TokenTree::Literal(number)) = behind.next() else {
+        return None;
+    };
+    let inside = number
+        .to_string()
+        .ends_with(|c: char| c.is_alphabetic() || c == '"');
+    match inside {
+        true => Some(part.clone()),
+        false => behind.word().is_some().then_some(behind),
     }
 }
 
