@@ -16,11 +16,12 @@ use lagrange_core::trajectory::{Difference, Summary};
 const TIGHTEST: [Setting; 4] = [taylor(1e-16), taylor(1e-15), taylor(1e-14), taylor(1e-13)];
 
 /// Groups of runs that check it; of the first group with one that gets to the end, the one that agrees best. Other
-/// methods, as tight as they can be; where none gets there, the same one with series of another order.
-const CHECKS: [&[Setting]; 4] = [
+/// methods, as tight as they can be; where none gets there, the same one with series of another order, and it is said.
+const CHECKS: [&[Setting]; 5] = [
     &explicit(1e-15),
     &explicit(1e-13),
     &explicit(1e-11),
+    &explicit(1e-9),
     &[taylor(1e-12)],
 ];
 
@@ -191,7 +192,10 @@ fn from_runs(motion: &Motion<'_>, by: Setting, tightest: Summary) -> Result<Refe
         }
         if let Some((setting, difference)) = best {
             return Ok(Reference {
-                checked_by: setting.to_string(),
+                checked_by: match setting.method == by.method {
+                    true => format!("{setting} (the same method)"),
+                    false => setting.to_string(),
+                },
                 difference,
                 floor: difference.max(f64::EPSILON),
                 ..reference
@@ -199,4 +203,52 @@ fn from_runs(motion: &Motion<'_>, by: Setting, tightest: Summary) -> Result<Refe
         }
     }
     Err(refused.unwrap_or_else(|| refusal(by, "nothing to check it by".to_owned())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::request::Request;
+
+    /// Fewer steps are allowed than tight runs of other methods need: a looser one of them checks, before the same method does.
+    #[test]
+    fn another_method_checks_while_one_gets_to_the_end() {
+        let declared = "coordinates(x), kinetic = der(x)^2/2, potential = 1 - cos(x), start(out: x = 1), until = 200,";
+        let scene = crate::file::scene("swing.lagrange", declared).expect("a declaration");
+        let begun = scene.beginning(&Request::default()).expect("a beginning");
+        let simulation = Request::default()
+            .simulation(&begun.system)
+            .expect("a simulation");
+        let mut motion = Motion {
+            system: &begun.system,
+            start: begun.start.clone(),
+            simulation,
+            until: begun.until,
+            max_steps: 100_000,
+        };
+        let steps =
+            |motion: &Motion, setting: Setting| motion.run(setting).expect("a run").work().steps;
+        let least = |motion: &Motion, tolerance: f64| {
+            explicit(tolerance)
+                .map(|setting| steps(motion, setting))
+                .into_iter()
+                .min()
+        };
+        let (tight, loose) = (least(&motion, 1e-11), least(&motion, 1e-9));
+        let (tight, loose) = (tight.expect("two"), loose.expect("two"));
+        let same = steps(&motion, taylor(1e-12));
+        assert!(same < loose && loose < tight, "{same} {loose} {tight}");
+        let mut checked = |max_steps| {
+            motion.max_steps = max_steps;
+            let (setting, run) = tightest(&motion).expect("a run");
+            let reference = from_runs(&motion, setting, Summary::of(&run));
+            reference.expect("a reference").checked_by
+        };
+        let by = checked((loose + tight) / 2);
+        assert!(by.ends_with(" at 1e-9"), "{by}");
+        assert_eq!(
+            checked((same + loose) / 2),
+            "taylor at 1e-12 (the same method)"
+        );
+    }
 }
