@@ -3,7 +3,7 @@
 
 use super::{PI, state};
 use lagrange_core::prelude::*;
-use lagrange_tests::{Random, agree, event, run_by, words};
+use lagrange_tests::{Random, agree, event, root, run_by, words};
 
 /// Three flywheels on overrunning clutches, one behind the other, behind a shaft that swings; each is slowed down by a weight on a drum.
 #[derive(Lagrangian, Clone, Debug)]
@@ -36,16 +36,7 @@ impl Flywheels {
             let flight = self.swing * (sin + self.rate * cos * s) - 0.5 * self.load * s * s;
             flight - self.swing * (self.rate * t).sin()
         };
-        let (mut low, mut high) = (0.5 * PI / self.rate, 2.5 * PI / self.rate);
-        while high - low > 4.0 * f64::EPSILON * high {
-            let middle = 0.5 * (low + high);
-            (low, high) = if gap(middle) > 0.0 {
-                (middle, high)
-            } else {
-                (low, middle)
-            };
-        }
-        low
+        root(gap, 0.5 * PI / self.rate, 2.5 * PI / self.rate)
     }
 }
 

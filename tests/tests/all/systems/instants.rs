@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{Random, agree, all_agree, run, run_by, times, words};
+use lagrange_tests::{Random, agree, all_agree, root, run, run_by, times, words};
 
 /// A ball between floor and ceiling.
 #[derive(Lagrangian, Clone, Debug)]
@@ -264,17 +264,7 @@ struct Rubbed {
 fn a_mark_is_passed_where_a_friction_reverses() {
     for push in [0.62, 0.8, 0.93] {
         let velocity = |t: f64| 0.7 - t / 2.0 + push * (1.0 - (3.0 * t).cos()) / 3.0;
-        let (mut before, mut after) = (1.4, 2.1);
-        while after - before > 1e-15 * after {
-            let middle = 0.5 * (before + after);
-            if middle <= before || middle >= after {
-                break;
-            }
-            match velocity(middle) > 0.0 {
-                true => before = middle,
-                false => after = middle,
-            }
-        }
+        let turns = root(velocity, 1.4, 2.1);
         let rubbed = Rubbed { push };
         for method in ["auto", "dop853", "dopri5", "verner98", "radau5"] {
             for tolerance in [1e-6, 1e-9, 1e-12] {
@@ -283,7 +273,7 @@ fn a_mark_is_passed_where_a_friction_reverses() {
                 for mark in ["turns", "also"] {
                     let times = times(&run, mark, "mark");
                     assert!(!times.is_empty(), "{what}: {mark}");
-                    agree(&what, times[0], before, 100.0 * tolerance);
+                    agree(&what, times[0], turns, 100.0 * tolerance);
                 }
             }
         }

@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{Random, agree, run_by, runge_kutta, words};
+use lagrange_tests::{Random, agree, root, run_by, runge_kutta, words};
 
 /// A bar on two pads at its ends, pulled ever harder at a place `off` its middle.
 #[derive(Lagrangian, Clone, Debug)]
@@ -91,11 +91,7 @@ fn a_bar_slips_when_both_cones_cannot_hold_it() {
             let [a, b] = [0, 1].map(|i| (bar.mu * bar.press[i]).powi(2) - shares[i].powi(2));
             a >= 0.0 && b >= 0.0 && a.sqrt() + b.sqrt() >= (across.sin() * t).abs()
         };
-        let (mut held, mut lost) = (0.0, 100.0);
-        for _ in 0..100 {
-            let middle = 0.5 * (held + lost);
-            *if holds(middle) { &mut held } else { &mut lost } = middle;
-        }
+        let held = root(|t| if holds(t) { 1.0 } else { -1.0 }, 0.0, 100.0);
         for (method, tolerance) in [
             ("taylor", 1e-6),
             ("taylor", 1e-11),

@@ -3,7 +3,7 @@
 use super::{PI, state};
 use lagrange_core::prelude::*;
 use lagrange_tests::fuzz::METHODS;
-use lagrange_tests::{agree, certified, run_by, runge_kutta, times};
+use lagrange_tests::{agree, certified, root, run_by, runge_kutta, times};
 
 /// A motion in one coordinate from a position and a velocity.
 fn moved(
@@ -260,24 +260,13 @@ impl Beaten {
     /// When it begins to slip and comes to rest again.
     fn slips(&self, until: f64) -> Vec<[f64; 2]> {
         const STEP: f64 = 1e-3;
-        let root = |from: f64, f: &dyn Fn(f64) -> f64| {
-            let (mut low, mut high) = (from, from + STEP);
-            for _ in 0..60 {
-                let middle = 0.5 * (low + high);
-                match f(middle) > 0.0 {
-                    true => low = middle,
-                    false => high = middle,
-                }
-            }
-            high
-        };
         let (mut t, mut slips) = (0.0, Vec::new());
         while t < until {
             if self.push(t + STEP).abs() <= self.limit {
                 t += STEP;
                 continue;
             }
-            let begins = root(t, &|t| self.limit - self.push(t).abs());
+            let begins = root(|t| self.limit - self.push(t).abs(), t, t + STEP);
             let along = self.push(begins).signum();
             let speed =
                 |t: f64| along * (self.pushed(t) - self.pushed(begins)) - self.limit * (t - begins);
@@ -285,7 +274,7 @@ impl Beaten {
             while speed(t + STEP) > 0.0 {
                 t += STEP;
             }
-            let rests = root(t, &speed);
+            let rests = root(speed, t, t + STEP);
             slips.push([begins, rests]);
             t = rests;
         }

@@ -2,7 +2,7 @@
 
 use super::{PI, state};
 use lagrange_core::prelude::*;
-use lagrange_tests::{Random, agree, certified, event, run_by, times, words};
+use lagrange_tests::{Random, agree, certified, event, root, run_by, times, words};
 
 /// A sledge on two rough runners under a load that comes and goes.
 #[derive(Lagrangian, Clone, Debug)]
@@ -690,20 +690,18 @@ fn what_holds_by_a_ratio_that_changes_lets_go_where_both_are_overcome() {
         };
         let excess =
             |t: f64| lever.rise * t.powi(3) - lever.own - lever.far * (1.0 + lever.growth * t);
-        let (mut before, mut after) = (0.0, 4.0);
-        while after - before > 1e-14 {
-            let middle = 0.5 * (before + after);
-            match excess(middle) > 0.0 {
-                true => after = middle,
-                false => before = middle,
-            }
-        }
+        let overcome = root(excess, 0.0, 4.0);
         for method in ["auto", "dop853", "verner98", "radau5"] {
             for tolerance in [1e-6, 1e-9, 1e-12] {
                 let motion = run_by(&lever, (method, tolerance), state(&[0.0], &[0.0]), 4.0);
                 let what = format!("{lever:?} by {method} at {tolerance:e}");
                 for friction in ["pad", "end"] {
-                    agree(&what, event(&motion, friction, "slips").time, after, 1e-7);
+                    agree(
+                        &what,
+                        event(&motion, friction, "slips").time,
+                        overcome,
+                        1e-7,
+                    );
                 }
             }
         }

@@ -3,7 +3,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{Random, agree, all_agree, run_by, runge_kutta, words};
+use lagrange_tests::{Random, agree, all_agree, root, run_by, runge_kutta, words};
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 /// A stool on four feet slides and turns; `tilt` are its small turns about its own axes.
@@ -131,15 +131,8 @@ fn feet_share_the_load_of_what_slides_on_them() {
             let next = stool.step(&now, STEP);
             let (foot, load) = stool.least(&next);
             if load < 0.0 {
-                let (mut low, mut high) = (0.0, STEP);
-                while high - low > 1e-14 {
-                    let middle = 0.5 * (low + high);
-                    match stool.least(&stool.step(&now, middle)).1 < 0.0 {
-                        true => high = middle,
-                        false => low = middle,
-                    }
-                }
-                lifts = Some((foot, time + high));
+                let left = root(|h| stool.least(&stool.step(&now, h)).1, 0.0, STEP);
+                lifts = Some((foot, time + left));
                 break;
             }
             now = next;
