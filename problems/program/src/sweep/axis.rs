@@ -32,7 +32,7 @@ impl Axis {
         }
     }
 
-    /// Value number `index` of a grid: 0.1 is 0.1 also where it is three halves of a fifteenth, to rounding.
+    /// Value number `index` of a grid. What is a short decimal fraction but for rounding is that fraction.
     pub(super) fn value(&self, index: usize) -> f64 {
         match (self.count, index) {
             (0 | 1, _) | (_, 0) => self.from,
