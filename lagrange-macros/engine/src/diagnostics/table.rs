@@ -129,6 +129,7 @@ table! {
 
     KineticAtRest "E515" "{0}" "a kinetic energy is made of `der(…)`; an energy of position belongs in `potential`, with the opposite sign";
     Bearing "E516" "{0}" "{1}";
+    NoRest "E517" "this Lagrangian has no value where nothing moves" "its value at rest says what is potential energy: declare `kinetic = …` and `potential = …` in its place";
 
     NoInertia "E601" "the coordinate `{0}` has no inertia" "no kinetic energy contains `der({0})`, and no constraint ties it: add its kinetic energy, tie it with `constraint(name: der({0}) == …)`, or remove it";
     EquationCount "E602" "{0} equations for {1} unknowns" "{2}";

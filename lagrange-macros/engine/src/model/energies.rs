@@ -138,6 +138,9 @@ impl Elaboration<'_> {
             // Where rates are symbols L stays whole.
             Some(_) => self.system.pool.integer(0),
         };
+        if self.system.pool.has_pole(at_rest) {
+            return self.sink.report(Code::NoRest, value.extent, &[]);
+        }
         let kinetic = self.system.pool.sub(lagrangian, at_rest);
         let potential = self.system.pool.neg(at_rest);
         self.system.from_lagrangian = true;

@@ -2,7 +2,7 @@
 
 use super::properties::symbol_bit;
 use super::table::{Flags, Table};
-use super::{ExprId, Node, Pool, Rational, Symbol};
+use super::{ExprId, Function, Node, Pool, Rational, Symbol};
 
 impl Pool {
     /// Everything that the roots are made of, the roots included, each once, ascending (a topological order).
@@ -94,6 +94,25 @@ impl Pool {
         branches.sort();
         branches.dedup();
         branches
+    }
+
+    /// Whether something in it is infinite for all values of the symbols: a negative power of 0, or its logarithm.
+    pub fn has_pole(&self, e: ExprId) -> bool {
+        let mut found = false;
+        self.visit(
+            e,
+            |_| false,
+            |node| {
+                found |= match node {
+                    Node::Product(factors) => factors
+                        .iter()
+                        .any(|&(base, exponent)| exponent.is_negative() && self.is_zero(base)),
+                    Node::Call(Function::Ln, arguments) => self.is_zero(arguments[0]),
+                    _ => false,
+                }
+            },
+        );
+        found
     }
 
     /// Shows each distinct sub-expression once, in no particular order; what `skip` says is left out with all below it.
