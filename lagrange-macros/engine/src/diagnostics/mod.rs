@@ -94,10 +94,19 @@ impl Display for Diagnostic {
     }
 }
 
+/// So many mistakes are told; a declaration can have as many as it has tokens.
+const MOST: usize = 100;
+
+/// Letters of what fills a blank of a message: a name in a file can have a million.
+const LONGEST: usize = 1_000;
+
 /// All mistakes found so far.
 #[derive(Default, Debug)]
 pub struct Diagnostics {
+    /// The first [`MOST`] of them.
     found: Vec<Diagnostic>,
+    /// How many there are.
+    count: usize,
 }
 
 impl Diagnostics {
@@ -109,7 +118,7 @@ impl Diagnostics {
     /// Reports a mistake: `arguments` fill `{0}`, `{1}`, … of the code's message and hint.
     pub fn report(&mut self, code: Code, at: impl Into<Extent>, arguments: &[&dyn Display]) {
         let row = code.row();
-        self.found.push(Diagnostic {
+        self.add(|| Diagnostic {
             code: row.code,
             extent: at.into(),
             message: fill(row.message, arguments),
@@ -117,10 +126,17 @@ impl Diagnostics {
         });
     }
 
+    fn add(&mut self, mistake: impl FnOnce() -> Diagnostic) {
+        self.count += 1;
+        if !self.is_full() {
+            self.found.push(mistake());
+        }
+    }
+
     /// Takes over what syn found.
     pub fn absorb(&mut self, error: syn::Error) {
         for one in error {
-            self.found.push(Diagnostic {
+            self.add(|| Diagnostic {
                 code: "E000",
                 extent: one.span().into(),
                 message: one.to_string(),
@@ -131,20 +147,27 @@ impl Diagnostics {
 
     /// Takes over everything that another collector has found.
     pub fn append(&mut self, other: Diagnostics) {
-        self.found.extend(other.found);
+        let room = MOST.saturating_sub(self.found.len());
+        self.count += other.count;
+        self.found.extend(other.found.into_iter().take(room));
     }
 
     /// Whether nothing is wrong.
     pub fn is_empty(&self) -> bool {
-        self.found.is_empty()
+        self.count == 0
+    }
+
+    /// Whether further mistakes are counted, and not told.
+    pub fn is_full(&self) -> bool {
+        self.found.len() >= MOST
     }
 
     /// The number of mistakes so far; a later larger number says that something went wrong in between.
     pub fn count(&self) -> usize {
-        self.found.len()
+        self.count
     }
 
-    /// The mistakes in the order in which they were found.
+    /// The mistakes that are told, in the order in which they were found.
     pub fn iter(&self) -> impl Iterator<Item = &Diagnostic> {
         self.found.iter()
     }
@@ -161,7 +184,7 @@ impl Display for Diagnostics {
     }
 }
 
-/// Replaces `{0}`, `{1}`, … in a template.
+/// Replaces `{0}`, `{1}`, … in a template; of what is very long there the beginning is told.
 fn fill(template: &str, arguments: &[&dyn Display]) -> String {
     let mut parts = template.split('{');
     let mut text = parts.next().unwrap_or_default().to_owned();
@@ -172,7 +195,12 @@ fn fill(template: &str, arguments: &[&dyn Display]) -> String {
         match blank {
             Some((index, rest)) => {
                 debug_assert!(index < arguments.len(), "nothing for a blank: {template}");
-                text.extend(arguments.get(index).map(ToString::to_string));
+                let argument = arguments.get(index).map(ToString::to_string);
+                let argument = argument.unwrap_or_default();
+                text.extend(argument.chars().take(LONGEST));
+                if argument.chars().nth(LONGEST).is_some() {
+                    text.push('…');
+                }
                 text.push_str(rest);
             }
             None => text.extend(["{", part]),

@@ -139,6 +139,7 @@ table! {
     SlipsParallel "E605" "the two components of the slip of `{0}` are one" "write velocities in two directions, or a slip of one component";
     SingularInertia "E606" "{0} can move together without kinetic energy" "add the kinetic energy of that motion, or a constraint that forbids it";
     TooLarge "E607" "the equations of `{0}` outgrow {1} operands" "declare fewer elements; or give each body coordinates of its own and tie them with `constraint`: then each equation knows its neighbours only";
+    TooManyRows "E608" "{0} coordinates, constraints, contacts and frictions are too many" "a declaration may have {1} together: matrices have a row for each";
 
     UnknownUnit "E701" "`{0}` is not a unit" "{1}";
     UnitMultiple "E702" "`{0}` is a multiple of {1}" "numbers are not converted: write `{1}`, and give the values in it";

@@ -26,6 +26,21 @@ fn codes_are_distinct_and_ascending() {
     assert!(codes.windows(2).all(|pair| pair[0] < pair[1]), "{codes:?}");
 }
 
+/// A file can have a mistake in each of ten thousand items, and a name of a million letters.
+#[test]
+fn many_and_long_mistakes_are_counted_and_cut() {
+    let tokens: TokenStream = "a".parse().unwrap();
+    let token = tokens.into_iter().next().unwrap();
+    let mut sink = Diagnostics::new();
+    for _ in 0..10_000 {
+        sink.report(Code::UnknownName, &token, &[&"z".repeat(5_000), &""]);
+    }
+    assert_eq!(sink.count(), 10_000);
+    assert_eq!(sink.iter().count(), 100);
+    let longest = sink.iter().map(|one| one.message.len()).max();
+    assert!(longest < Some(1_100), "{longest:?}");
+}
+
 #[test]
 fn prints_place_code_message_and_hint() {
     let tokens: TokenStream = "a\n  **".parse().unwrap();

@@ -23,6 +23,7 @@ pub fn scoped(declaration: &Declaration, sink: &mut Diagnostics) -> Option<(Syst
     let before = sink.count();
     let mut elaboration = Elaboration::new(declaration, sink);
     elaboration.read_all(declaration);
+    elaboration.check_size();
     elaboration.check_draws(declaration);
     elaboration.check_quadratic(declaration);
     elaboration.check_dropped(declaration);
@@ -238,7 +239,7 @@ impl<'a> Elaboration<'a> {
                 let elements: Option<Vec<Value>> = (from..to)
                     .map(|k| self.with_index(&index.name, k, |this| this.value(&value, context)))
                     .collect();
-                elements.map(|elements| (Value::List(elements), from))
+                Some((self.list(elements?, value.extent)?, from))
             }),
         };
         (self.indices, self.slip) = (indices, slip);
@@ -304,6 +305,25 @@ impl<'a> Elaboration<'a> {
             _ => None,
         });
         worth.collect()
+    }
+
+    /// A run has matrices with a row and a column for each of these.
+    fn check_size(&mut self) {
+        const MOST: usize = 4_000;
+        let system = &self.system;
+        let coordinates = system.coordinates.iter().map(|one| one.name.span);
+        let constraints = system.constraints.iter().map(|one| one.name.span);
+        let contacts = system.contacts.iter().map(|one| one.name.span);
+        let frictions = system.frictions.iter().map(|one| one.name.span);
+        let mut all = coordinates
+            .chain(constraints)
+            .chain(contacts)
+            .chain(frictions);
+        let count = all.clone().count();
+        if let Some(beyond) = all.nth(MOST) {
+            self.sink
+                .report(Code::TooManyRows, beyond, &[&count, &MOST]);
+        }
     }
 
     /// Exact numbers that did not fit make every form doubtful: reported where it first happens.

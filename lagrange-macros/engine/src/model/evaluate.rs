@@ -67,16 +67,15 @@ impl Elaboration<'_> {
                 self.conditional(expr, condition, then, otherwise, context)
             }
             ExprKind::SumOver(index, body) => self.sum_over(index, body, expr.extent, context),
-            ExprKind::ListOver(index, body) => self
-                .each_of(index, body, expr.extent, context)
-                .map(Value::List),
+            ExprKind::ListOver(index, body) => {
+                let elements = self.each_of(index, body, expr.extent, context)?;
+                self.list(elements, expr.extent)
+            }
             ExprKind::List(elements) => {
                 let elements: Vec<Option<Value>> =
                     elements.iter().map(|e| self.value(e, context)).collect();
-                elements
-                    .into_iter()
-                    .collect::<Option<Vec<Value>>>()
-                    .map(Value::List)
+                let elements = elements.into_iter().collect::<Option<Vec<Value>>>()?;
+                self.list(elements, expr.extent)
             }
             ExprKind::Element(base, index) => self.element(base, index, context),
             ExprKind::Member(base, name) => self.member(base, name, context),

@@ -72,6 +72,13 @@ impl Elaboration<'_> {
         Some(())
     }
 
+    /// The list of these elements; what is in them is counted, because lists inside of lists multiply.
+    pub(super) fn list(&mut self, elements: Vec<Value>, at: Extent) -> Option<Value> {
+        let list = Value::List(elements);
+        self.unroll(list.size() as i64, at)?;
+        Some(list)
+    }
+
     /// Enters an index for as long as `body` runs.
     pub fn with_index<R>(
         &mut self,

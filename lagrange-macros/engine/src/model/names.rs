@@ -81,7 +81,11 @@ impl Elaboration<'_> {
     /// Reports a name that nothing has, with the nearest one that exists.
     pub fn unknown(&mut self, name: &Name) {
         let text = name.text.as_str();
-        let hint = self.suggestion(text);
+        // All names are looked through for it: not where nobody will read it.
+        let hint = match self.sink.is_full() {
+            true => String::new(),
+            false => self.suggestion(text),
+        };
         self.sink.report(Code::UnknownName, name, &[&text, &hint]);
     }
 
@@ -92,7 +96,11 @@ impl Elaboration<'_> {
             .names
             .iter()
             .filter(|(_, entry)| kinds.contains(&entry.kind));
-        let hint = match nearest(text, of_kind.map(|(known, _)| known.as_str())) {
+        let near = match self.sink.is_full() {
+            true => None,
+            false => nearest(text, of_kind.map(|(known, _)| known.as_str())),
+        };
+        let hint = match near {
             Some(known) => format!("did you mean `{known}`?"),
             None => match self.velocity(text) {
                 Some(velocity) if kinds.contains(&Kind::Coordinate) => velocity,

@@ -18,6 +18,14 @@ impl Value {
         }
     }
 
+    /// Number of scalars in it.
+    pub fn size(&self) -> usize {
+        match self {
+            Value::Scalar(_) => 1,
+            Value::List(elements) => elements.iter().map(Value::size).sum(),
+        }
+    }
+
     /// All scalars in it, in order.
     pub fn scalars(&self) -> Vec<ExprId> {
         match self {

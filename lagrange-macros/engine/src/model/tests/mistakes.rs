@@ -70,6 +70,11 @@ fn mistakes_point_at_their_token() {
         ("potential = x.axes", "2:15 E309"),
         ("define(u[k in 3..3] = x)", "2:15 E310"),
         ("define(u[k in 0..1000000000] = x)", "2:15 E311"),
+        // Lists in lists multiply: 8⁶ times three elements.
+        (
+            "define(m0 = list(i in 0..8: list(j in 0..8: q)), m1 = list(i in 0..8: list(j in 0..8: m0)), m2 = list(i in 0..8: list(j in 0..8: m1)))",
+            "2:98 E311",
+        ),
         ("potential = 10^30*10^30*x", "2:13 E312"),
         ("potential = der(der(x))", "2:13 E401"),
         ("kinetic(k: der(der(x)))", "2:12 E402"),

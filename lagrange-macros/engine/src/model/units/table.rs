@@ -161,6 +161,10 @@ impl Scaled {
 
 /// A unit's symbol, with a prefix or without.
 pub(super) fn known(symbol: &str) -> Result<Scaled, Refusal> {
+    unit(symbol).ok_or_else(|| Refusal::Unknown(symbol.to_string(), meant(symbol)))
+}
+
+fn unit(symbol: &str) -> Option<Scaled> {
     let plain = |symbol: &str| UNITS.iter().find(|(known, ..)| *known == symbol);
     let scaled = |&(unit, dimension, ten): &(&str, Dimension, i64), more: i64| Scaled {
         dimension,
@@ -169,21 +173,20 @@ pub(super) fn known(symbol: &str) -> Result<Scaled, Refusal> {
         angle: unit == "rad",
     };
     if let Some(found) = plain(symbol) {
-        return Ok(scaled(found, 0));
+        return Some(scaled(found, 0));
     }
     if let Some((_, dimension)) = ODD.iter().find(|(known, _)| *known == symbol) {
-        return Ok(Scaled {
+        return Some(Scaled {
             dimension: *dimension,
             ten: Rational::ZERO,
             odd: true,
             angle: ANGLES.contains(&symbol),
         });
     }
-    let prefixed = PREFIXES.iter().find_map(|(prefix, ten)| {
+    PREFIXES.iter().find_map(|(prefix, ten)| {
         let found = plain(symbol.strip_prefix(prefix)?)?;
         Some(scaled(found, *ten))
-    });
-    prefixed.ok_or_else(|| Refusal::Unknown(symbol.to_string(), meant(symbol)))
+    })
 }
 
 /// What an unknown symbol may be meant to be.
@@ -208,12 +211,17 @@ fn meant(symbol: &str) -> String {
 
 /// Coherent units one after the other, of which the last may be any `allowed` one: `Nms` → `N m s`. The same one twice would be a square.
 fn product(symbol: &str, allowed: impl Fn(Scaled) -> bool + Copy) -> Option<String> {
+    /// The ways to cut a text double with each letter; `kgmmss` has six.
+    const LONGEST: usize = 12;
+    if symbol.len() > LONGEST {
+        return None;
+    }
     let cuts = symbol.char_indices().skip(1);
     let mut cuts = cuts.map(|(at, _)| symbol.split_at(at));
     cuts.find_map(|(first, rest)| {
-        known(first).ok().filter(|unit| unit.is_coherent())?;
-        let rest = match known(rest) {
-            Ok(unit) if allowed(unit) => rest.to_string(),
+        unit(first).filter(|unit| unit.is_coherent())?;
+        let rest = match unit(rest) {
+            Some(unit) if allowed(unit) => rest.to_string(),
             _ => product(rest, allowed)?,
         };
         (rest.split(' ').next() != Some(first)).then(|| format!("{first} {rest}"))

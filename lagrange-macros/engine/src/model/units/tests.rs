@@ -97,6 +97,19 @@ fn texts_of_dimensions_read_back() {
     }
 }
 
+/// What is no unit is cut into units as long as that is quick.
+#[test]
+fn long_words_are_refused_at_once() {
+    let hint = |text: &str| match unit(text) {
+        Err(Refusal::Unknown(_, hint)) => hint,
+        other => panic!("{text}: {other:?}"),
+    };
+    assert!(hint("Nms").ends_with("`N m s`"), "{}", hint("Nms"));
+    for text in ["dimensionless", &"ms".repeat(500), &"k".repeat(100_000)] {
+        assert!(hint(text).starts_with("units are those of the SI"));
+    }
+}
+
 #[test]
 fn multiples_are_told_with_their_coherent_unit() {
     let multiples = [
