@@ -1,6 +1,6 @@
 //! Expressions and comparisons.
 
-use super::{Index, Name, Reference};
+use super::{Index, Name, Range, Reference};
 use crate::diagnostics::Extent;
 
 /// An expression.
@@ -41,6 +41,107 @@ impl Expr {
             name: name.clone(),
             element,
         })
+    }
+
+    /// The expression for one value of each index: a number for its name, and for sums and products of such numbers.
+    pub fn at(&self, index: &dyn Fn(&str) -> Option<i64>) -> Expr {
+        let at = |e: &Expr| e.at(index);
+        let boxed = |e: &Expr| Box::new(e.at(index));
+        let over = |inner: &Index| {
+            let range = Range {
+                from: at(&inner.range.from),
+                to: at(&inner.range.to),
+            };
+            Box::new(Index {
+                name: inner.name.clone(),
+                range,
+            })
+        };
+        let kind = match &self.kind {
+            ExprKind::Number(number) => ExprKind::Number(*number),
+            ExprKind::Name(name) => match index(&name.text) {
+                Some(value) => return self.whole_number(value),
+                None => ExprKind::Name(name.clone()),
+            },
+            ExprKind::Sum(terms) => {
+                // x + k is x - 1 where k = -1.
+                let signed = terms.iter().enumerate().map(|(i, (sign, e))| {
+                    let e = at(e);
+                    match (e.kind, sign) {
+                        (ExprKind::Negative(size), Sign::Plus) if i > 0 => (Sign::Minus, *size),
+                        (ExprKind::Negative(size), Sign::Minus) if i > 0 => (Sign::Plus, *size),
+                        (kind, sign) => (*sign, Expr { kind, ..e }),
+                    }
+                });
+                ExprKind::Sum(signed.collect())
+            }
+            ExprKind::Product(factors) => {
+                ExprKind::Product(factors.iter().map(|(side, e)| (*side, at(e))).collect())
+            }
+            ExprKind::Negative(inner) => ExprKind::Negative(boxed(inner)),
+            ExprKind::Power(base, exponent) => ExprKind::Power(boxed(base), boxed(exponent)),
+            ExprKind::Call(name, parts) => {
+                ExprKind::Call(name.clone(), parts.iter().map(at).collect())
+            }
+            ExprKind::If(condition, then, otherwise) => {
+                let condition = Comparison {
+                    left: at(&condition.left),
+                    relation: condition.relation,
+                    right: at(&condition.right),
+                };
+                ExprKind::If(Box::new(condition), boxed(then), boxed(otherwise))
+            }
+            ExprKind::SumOver(inner, body) => ExprKind::SumOver(over(inner), boxed(body)),
+            ExprKind::ListOver(inner, body) => ExprKind::ListOver(over(inner), boxed(body)),
+            ExprKind::List(parts) => ExprKind::List(parts.iter().map(at).collect()),
+            ExprKind::Element(base, element) => ExprKind::Element(boxed(base), boxed(element)),
+            ExprKind::Member(base, name) => ExprKind::Member(boxed(base), name.clone()),
+        };
+        let replaced = Expr {
+            kind,
+            extent: self.extent,
+        };
+        match replaced.as_whole_number() {
+            Some(value) => self.whole_number(value),
+            None => replaced,
+        }
+    }
+
+    /// A whole number in the place of this expression.
+    fn whole_number(&self, value: i64) -> Expr {
+        let size = ExprKind::Number(Decimal {
+            digits: i128::from(value.unsigned_abs()),
+            exponent: 0,
+        });
+        let extent = self.extent;
+        let size = Expr { kind: size, extent };
+        match value < 0 {
+            true => Expr {
+                kind: ExprKind::Negative(Box::new(size)),
+                extent,
+            },
+            false => size,
+        }
+    }
+
+    /// The value of sums and products of whole numbers.
+    fn as_whole_number(&self) -> Option<i64> {
+        match &self.kind {
+            ExprKind::Number(number) if number.exponent == 0 => number.digits.try_into().ok(),
+            ExprKind::Negative(inner) => inner.as_whole_number()?.checked_neg(),
+            ExprKind::Sum(terms) => terms.iter().try_fold(0i64, |sum, (sign, term)| {
+                let term = term.as_whole_number()?;
+                match sign {
+                    Sign::Plus => sum.checked_add(term),
+                    Sign::Minus => sum.checked_sub(term),
+                }
+            }),
+            ExprKind::Product(factors) => factors.iter().try_fold(1i64, |product, (side, e)| {
+                let factor = e.as_whole_number().filter(|_| *side == Factor::Times)?;
+                product.checked_mul(factor)
+            }),
+            _ => None,
+        }
     }
 
     /// The names that an expression uses, in order.

@@ -58,28 +58,27 @@ impl Elaboration<'_> {
         branch
     }
 
+    /// An expression in the words of the user, with numbers for indices: `w[0]` and `w[1]` are told apart.
+    fn words(&self, declared: &Expr) -> String {
+        let index = |name: &str| {
+            let mut entered = self.indices.iter();
+            entered.find(|(known, _)| known == name).map(|&(_, k)| k)
+        };
+        declared.at(&index).to_string()
+    }
+
     /// abs(u): u, −u by u.
     pub fn absolute(&mut self, u: ExprId, declared: &Expr) -> ExprId {
         let minus = self.system.pool.neg(u);
-        self.select(
-            u,
-            u,
-            minus,
-            Sides::of(declared, Relation::AtLeast, &0),
-            declared.extent,
-        )
+        let sides = Sides::of(&self.words(declared), Relation::AtLeast, &0);
+        self.select(u, u, minus, sides, declared.extent)
     }
 
     /// sign(u): 1, −1 by u.
     pub fn sign(&mut self, u: ExprId, declared: &Expr) -> ExprId {
         let (plus, minus) = (self.system.pool.integer(1), self.system.pool.integer(-1));
-        self.select(
-            u,
-            plus,
-            minus,
-            Sides::of(declared, Relation::AtLeast, &0),
-            declared.extent,
-        )
+        let sides = Sides::of(&self.words(declared), Relation::AtLeast, &0);
+        self.select(u, plus, minus, sides, declared.extent)
     }
 
     /// max(a, b, …): a, b by a − b; min(a, b, …): a, b by b − a.
@@ -96,12 +95,12 @@ impl Elaboration<'_> {
                 "min" => (self.system.pool.sub(value, extreme), Relation::AtMost),
                 _ => (self.system.pool.sub(extreme, value), Relation::AtLeast),
             };
-            let before: Vec<String> = declared[..k].iter().map(Expr::to_string).collect();
+            let before: Vec<String> = declared[..k].iter().map(|e| self.words(e)).collect();
             let before = match before.as_slice() {
                 [only] => only.clone(),
                 several => format!("{name}({})", several.join(", ")),
             };
-            let sides = Sides::of(&before, relation, &declared[k]);
+            let sides = Sides::of(&before, relation, &self.words(&declared[k]));
             extreme = self.select(guard, extreme, value, sides, at);
         }
         extreme
@@ -134,8 +133,9 @@ impl Elaboration<'_> {
             relation,
             right,
         } = condition;
+        let (left, right) = (self.words(left), self.words(right));
         let selected = first.zip(&second, &mut |a, b| {
-            let sides = Sides::of(left, *relation, right);
+            let sides = Sides::of(&left, *relation, &right);
             self.select(guard, a, b, sides, expr.extent)
         });
         if selected.is_none() {

@@ -261,6 +261,37 @@ fn piecewise_functions_become_branches() {
     );
 }
 
+/// Elements of one declaration are told apart by what stands in the place of the index.
+#[test]
+fn branches_of_elements_have_their_own_names() {
+    let system = with(
+        "define(squeeze[k in 0..2] = q[k + 1] - k*a), define(wear = sum(k in 0..2: max(-squeeze[k], 0))),
+         force(push: x = if(wear >= sum(i in 0..2: abs(q[i])), 1, 2)), force(rub[k in -1..1]: sign(q[k + 1] + k) along der(y))",
+    )
+    .unwrap();
+    let mut sides: Vec<&str> = (system.branches.iter())
+        .flat_map(|branch| [branch.then.as_str(), branch.otherwise.as_str()])
+        .collect();
+    sides.sort();
+    assert_eq!(
+        sides,
+        [
+            "-squeeze[0] < 0",
+            "-squeeze[0] >= 0",
+            "-squeeze[1] < 0",
+            "-squeeze[1] >= 0",
+            "q[0] - 1 < 0",
+            "q[0] - 1 >= 0",
+            "q[0] < 0",
+            "q[0] >= 0",
+            "q[1] < 0",
+            "q[1] >= 0",
+            "wear < sum(i in 0..2: abs(q[i]))",
+            "wear >= sum(i in 0..2: abs(q[i]))",
+        ]
+    );
+}
+
 #[test]
 fn lagrangian_is_split_at_rest() {
     let system = read(
