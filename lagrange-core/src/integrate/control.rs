@@ -17,6 +17,15 @@ pub struct Tolerance<'a> {
     pub sizes: &'a [f64],
 }
 
+/// The length of a fixed step, of at most `h_max`: one that is longer by rounding only is the last of a run, and taken whole.
+pub(super) fn fixed_length(step: f64, h_max: f64) -> f64 {
+    const ROUNDING: f64 = 1e-6;
+    match h_max <= step * (1.0 + ROUNDING) {
+        true => h_max,
+        false => step,
+    }
+}
+
 impl Tolerance<'_> {
     /// The same number for both: an error of `tolerance` where components are of size 1 or less.
     pub const fn both(tolerance: f64) -> Self {

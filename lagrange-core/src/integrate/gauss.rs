@@ -8,6 +8,7 @@
 //! Qᵢ = q + cᵢ h v + h² Σⱼ (A²)ᵢⱼ aⱼ,   Vᵢ = v + h Σⱼ Aᵢⱼ aⱼ,   aᵢ = a(t + cᵢ h, Qᵢ, Vᵢ)
 //! ```
 
+use super::control::fixed_length;
 use super::{Acceleration, Accepted, Start, StepError, StepPolynomial, hermite};
 use crate::arithmetic::{Scalar, epsilon};
 
@@ -103,7 +104,7 @@ impl<T: Scalar> Gauss<T> {
         out: &mut StepPolynomial<T>,
     ) -> Result<Accepted, StepError<A::Error>> {
         let Start { t, q, v } = from;
-        let size = self.step.min(h_max);
+        let size = fixed_length(self.step, h_max);
         let h = T::from_f64(size);
         let mut evaluations = self.begin(system, from, size)?;
         evaluations += self.iterate(system, from, size)?;

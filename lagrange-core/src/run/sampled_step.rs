@@ -4,7 +4,7 @@ use super::hit::Hit;
 use super::{Progress, Run};
 use crate::arithmetic::Scalar;
 use crate::error::Error;
-use crate::integrate::Integrator;
+use crate::integrate::{Integrator, Method};
 use crate::trajectory::State;
 
 /// So many times a step is made shorter because the interpolation of its guards does not hold.
@@ -52,7 +52,8 @@ impl<T: Scalar> Run<T> {
         {
             return self.taylor_step();
         }
-        let mut h = first.map_err(|e| self.no_step(e))?.min(longest);
+        let first = first.map_err(|e| self.no_step(e))?;
+        let mut h = self.whole_step(first, longest).min(longest);
         h = h.min(self.longest_at_rest());
         if self.switcher.redundant.has_open() && self.expand().is_ok() {
             h = h.min(self.longest_of_shared_loads(self.stepper.order));
@@ -92,6 +93,21 @@ impl<T: Scalar> Run<T> {
         // Where a guard has a kink no interpolation holds; where constraints lose rank no step does.
         self.stepper.wanted = None;
         self.taylor_step()
+    }
+
+    /// A step with which whole steps meet the end if fixed steps of length `h` do but for rounding: what rounding leaves of the time
+    /// would be a step of its own, too short for its accelerations to mean anything.
+    fn whole_step(&self, h: f64, longest: f64) -> f64 {
+        let fixed = matches!(
+            self.settings.method,
+            Method::RungeKutta4 { .. } | Method::Gauss6 { .. }
+        );
+        let whole = (longest / h).round();
+        let rounding = 2.0 * self.resolution(longest);
+        match fixed && whole >= 1.0 && (whole * h - longest).abs() <= rounding {
+            true => longest / whole,
+            false => h,
+        }
     }
 
     /// One step of a method other than Taylor's, of at most `h`; the step that it would like to take next.

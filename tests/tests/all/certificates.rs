@@ -225,3 +225,39 @@ fn what_is_all_rounding_is_no_error() {
         certified("deaf", &deaf);
     }
 }
+
+/// A pendulum as a point on a rod.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = gravity * y,
+    constraint(rod: x^2 + y^2 == 1),
+)]
+struct OnARod {
+    gravity: f64,
+}
+
+/// As many fixed steps as go into the time are made: rounding of the time leaves none for a step of its own.
+#[test]
+fn fixed_steps_that_divide_the_time_end_with_it() {
+    let scene = OnARod { gravity: 9.81 };
+    let rk4 = |step| Method::RungeKutta4 { step };
+    for (method, end, steps) in [
+        (rk4(0.002), 2.1, 1_050),
+        (rk4(0.002), 3.3, 1_650),
+        (rk4(0.002), 4.188, 2_094),
+        (rk4(0.001), 1.7, 1_700),
+        (rk4(0.003), 2.1, 700),
+        (rk4(0.006), 3.3, 550),
+        (rk4(0.012), 2.1, 175),
+        (rk4(0.002), 0.003, 2),
+        (Method::Gauss6 { step: 0.002 }, 2.1, 1_050),
+    ] {
+        let start = State::new(vec![1.0, 0.0], vec![0.0, 0.0]);
+        let simulation = Simulation::new(&scene).method(method);
+        let run = simulation.run(start, 0.0..end).expect("a run");
+        assert_eq!(run.work().steps, steps, "{method} to {end} s");
+        certified("on a rod", &run);
+    }
+}

@@ -5,7 +5,7 @@
 
 mod dense;
 
-use super::control::{Controller, Tolerance, error_norm};
+use super::control::{Controller, Tolerance, error_norm, fixed_length};
 use super::tableau::{Estimate, Tableau, Weights};
 use super::{Acceleration, Accepted, Method, Start, StepError, StepPolynomial, hermite};
 use super::{dop853, dopri5, rk4, verner98};
@@ -195,7 +195,7 @@ impl<T: Scalar> RungeKutta<T> {
         let t = from.t;
         let mut evaluations = self.begin(system, from)?;
         let mut rejected = 0;
-        let mut h = self.fixed_step.map_or(h_try, |step| step.min(h_try));
+        let mut h = (self.fixed_step).map_or(h_try, |step| fixed_length(step, h_try));
         let mut obstacle = None;
         loop {
             // What time rounds off would be a jump of fast motions.
