@@ -103,7 +103,8 @@ impl<T: Scalar> Run<T> {
             Method::RungeKutta4 { .. } | Method::Gauss6 { .. }
         );
         let whole = (longest / h).round();
-        let rounding = 2.0 * self.resolution(longest);
+        // Each step ends at a time that is rounded.
+        let rounding = whole * self.resolution(longest);
         match fixed && whole >= 1.0 && (whole * h - longest).abs() <= rounding {
             true => longest / whole,
             false => h,
