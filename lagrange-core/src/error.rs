@@ -343,7 +343,7 @@ impl fmt::Display for Error {
                 write!(
                     f,
                     "the start violates `{item}`: {level} residual {} (accepted: {tolerance:.1e}); \
-                     give {what} that satisfy it, or have the nearest ones taken (`project_start(true)`, `--project`)",
+                     give {what} that satisfy it, or have the nearest ones taken (`--project`, in Rust `project_start(true)`)",
                     short(*residual)
                 )
             }
@@ -354,7 +354,7 @@ impl fmt::Display for Error {
             } => write!(
                 f,
                 "the start is below the surface of `{item}`: gap {} (accepted: {:.1e}); begin above it, or have the \
-                 nearest positions taken (`project_start(true)`, `--project`), or, for a body that hangs under a surface, let the \
+                 nearest positions taken (`--project`, in Rust `project_start(true)`), or, for a body that hangs under a surface, let the \
                  contact's region (`where …`) leave that place out",
                 short(*gap),
                 -tolerance
@@ -572,7 +572,9 @@ impl fmt::Display for Error {
             } => {
                 write!(f, "an error of {asked:e} cannot be had")?;
                 if *possible < 0.1 {
-                    write!(f, ", one of {possible:.0e} can")?;
+                    // Two digits, not fewer than there are: a smaller one could be what was asked for.
+                    let digit = 10_f64.powf(possible.log10().floor() - 1.0);
+                    write!(f, ", one of {:.1e} can", (possible / digit).ceil() * digit)?;
                 }
                 write!(f, ": {reason}")
             }

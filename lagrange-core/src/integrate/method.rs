@@ -63,11 +63,19 @@ impl Method {
     }
 }
 
+/// `rk4:0.001`, or `rk4:1e-6` where there would be many zeros.
+fn with_step(name: &str, step: f64, f: &mut fmt::Formatter) -> fmt::Result {
+    match (1e-5..1e5).contains(&step) {
+        true => write!(f, "{name}:{step}"),
+        false => write!(f, "{name}:{step:e}"),
+    }
+}
+
 impl fmt::Display for Method {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            Self::RungeKutta4 { step } => write!(f, "rk4:{step}"),
-            Self::Gauss6 { step } => write!(f, "gauss6:{step}"),
+            Self::RungeKutta4 { step } => with_step("rk4", *step, f),
+            Self::Gauss6 { step } => with_step("gauss6", *step, f),
             Self::Auto => f.write_str("auto"),
             Self::Taylor => f.write_str("taylor"),
             Self::DormandPrince853 => f.write_str("dop853"),

@@ -198,6 +198,16 @@ fn chaos_says_what_can_be_had() {
         panic!("{failure}");
     };
     assert!(asked == 1e-9 && possible > 1e-9);
+    // What can be had is not told as less than it is, which might be what was asked for.
+    let near = Error::Inexact {
+        asked: 1e-10,
+        possible: 1.21e-10,
+        reason: "rounding".to_owned(),
+    };
+    assert_eq!(
+        near.to_string(),
+        "an error of 1e-10 cannot be had, one of 1.3e-10 can: rounding"
+    );
     // There is the motion, and how far off it is.
     assert_eq!(failure.trajectory.last_time(), 60.0);
     assert!(failure.trajectory.estimate().is_some());

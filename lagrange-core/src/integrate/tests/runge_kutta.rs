@@ -249,10 +249,13 @@ fn methods_have_names() {
         .chain([
             Method::RungeKutta4 { step: 0.001 },
             Method::Gauss6 { step: 0.25 },
+            Method::Gauss6 { step: 3e-300 },
         ]);
     for method in methods {
         assert_eq!(method.to_string().parse(), Ok(method));
     }
+    let short = Method::RungeKutta4 { step: 1e-300 };
+    assert_eq!(short.to_string(), "rk4:1e-300");
     let message = |text: &str| text.parse::<Method>().expect_err(text).to_string();
     assert_eq!(
         message("euler"),
