@@ -5,4 +5,4 @@
     potential = -mass * gravity * length * cos(theta),
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
-//~ 4:15 E001 expected a value, found the end
+//~ 4:15 E001 expected a value, found `,`

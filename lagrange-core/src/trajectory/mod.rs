@@ -239,7 +239,10 @@ impl<T: Scalar> Trajectory<T> {
     }
 
     /// Whether the motion between the events is known.
-    pub(crate) fn check_recorded(&self) -> Result<(), Error> {
+    ///
+    /// # Errors
+    /// It is not: [`record(false)`](crate::Simulation::record) was asked for.
+    pub fn check_recorded(&self) -> Result<(), Error> {
         if self.recorded {
             Ok(())
         } else {

@@ -89,7 +89,7 @@ pub trait Results {
     /// Draws quantities into a file ….svg, ….png or ….pdf: `["theta, rim vs t", "der(theta) vs theta"]`, as `--show` names them.
     ///
     /// # Errors
-    /// The name ends otherwise, the file cannot be written, or a quantity is not known.
+    /// The name ends otherwise, the file cannot be written, a quantity is not known, or the run was not recorded.
     fn plot_of(&self, path: impl AsRef<Path>, shows: &[&str]) -> io::Result<()> {
         let path = path.as_ref();
         let still = Still::of(path).map_err(refused)?;
@@ -97,6 +97,7 @@ pub trait Results {
             .iter()
             .map(|text| Show::new(text, self.motion().description()));
         let shows: Vec<Show> = shows.collect::<Result<_, _>>().map_err(refused)?;
+        self.motion().check_recorded().map_err(refused)?;
         let request = Request {
             samples: SAMPLES,
             plotted: true,
@@ -156,7 +157,9 @@ pub trait Results {
         let panels = [run.panel()];
         let clock = Clock::new(&panels, RATE, None).map_err(refused)?;
         let Some(moving) = moving else {
-            return fs::write(path, frames::animated(&panels, &clock));
+            return to_file(path, |out| {
+                out.write_all(frames::animated(&panels, &clock).as_bytes())
+            });
         };
         moving.ready(RATE).map_err(refused)?;
         let pace = Pace {
@@ -164,7 +167,8 @@ pub trait Results {
             rate: clock.rate,
             scale: 1.0,
         };
-        moving.write(|| frames::stills(&panels, &clock), pace, path)
+        let written = moving.write(|| frames::stills(&panels, &clock), pace, path);
+        written.map_err(|error| unwritten(path, &error))
     }
 
     /// Writes the run over time to a file ….csv, ….parquet, ….json or ….jsonl, or its story to ….txt.
@@ -224,15 +228,21 @@ fn refused(reason: impl core::fmt::Display) -> io::Error {
     io::Error::new(io::ErrorKind::InvalidInput, reason.to_string())
 }
 
+/// The error of a file, with its name.
+pub fn unwritten(path: &Path, error: &io::Error) -> io::Error {
+    let said = format!("cannot write {}: {error}", path.display());
+    io::Error::new(error.kind(), said)
+}
+
 /// Writes a file, at once when all of it is there.
 ///
 /// # Errors
-/// Of `write`, or of the file.
+/// Of `write`, or of the file, with its name.
 pub fn to_file(
     path: &Path,
     write: impl FnOnce(&mut dyn io::Write) -> io::Result<()>,
 ) -> io::Result<()> {
     let mut text = Vec::new();
-    write(&mut text)?;
-    fs::write(path, text)
+    let written = write(&mut text).and_then(|()| fs::write(path, text));
+    written.map_err(|error| unwritten(path, &error))
 }

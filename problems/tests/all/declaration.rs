@@ -28,6 +28,35 @@ fn says(folder: &Path, arguments: &[&str]) -> String {
     text(&output.stdout).to_owned()
 }
 
+/// What cannot be plotted or written is refused with its cause.
+#[test]
+fn results_that_cannot_be_had_say_why() {
+    let scene = exported::Pendulum::default();
+    let start = scene.at(<exported::Pendulum>::RELEASED);
+    let folder = folder("declaration-refused");
+    let simulation = || Simulation::new(&scene);
+    let bare = simulation().record(false).run(&start, 0.0..1.0);
+    let refused = bare.expect("a run").plot(folder.join("bare.svg"));
+    assert_eq!(
+        refused
+            .expect_err("nothing is known in between")
+            .to_string(),
+        Error::NotRecorded.to_string()
+    );
+    let run = simulation().run(&start, 0.0..1.0).expect("a run");
+    for name in ["run.csv", "run.svg", "run.html"] {
+        let path = folder.join("nowhere").join(name);
+        let written = match name {
+            "run.csv" => run.write(&path),
+            "run.svg" => run.plot(&path),
+            _ => run.report(&path),
+        };
+        let said = written.expect_err("no such folder").to_string();
+        let begins = format!("cannot write {}: ", path.display());
+        assert!(said.starts_with(&begins), "{said}");
+    }
+}
+
 #[test]
 fn every_command_takes_a_file() {
     let folder = folder("declaration");

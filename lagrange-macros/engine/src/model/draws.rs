@@ -6,6 +6,7 @@
 use super::depth::{Context, Depth, Reach};
 use super::elaborate::item_name;
 use super::elaboration::Elaboration;
+use super::forces::AS_ITS_PLACE;
 use super::meaning::Kind;
 use super::value::Value;
 use super::{System, Worked};
@@ -361,7 +362,10 @@ impl Elaboration<'_> {
                 let components = found
                     .vector()
                     .filter(|components| components.len() == draw.places[0].len());
-                if components.is_none() {
+                if found.length().is_none() {
+                    self.sink
+                        .report(Code::ScalarForList, force.extent, &[&AS_ITS_PLACE]);
+                } else if components.is_none() {
                     let (given, needed) = (found.length().unwrap_or(1), draw.places[0].len());
                     self.sink
                         .report(Code::Lengths, force.extent, &[&given, &needed]);

@@ -17,6 +17,10 @@ const DISSIPATION: Context = Context::new(Reach::Loads, "a dissipation");
 /// Where the names of items stand for their forces.
 pub const FORCES_STAND: &str = "`force`, `dissipation` and a `define` for them may contain contacts and constraints; every output may contain all";
 
+/// What is said of a force that is one number where its place is a list.
+pub(super) const AS_ITS_PLACE: &str =
+    "a force has as many components as the place where it acts: `(f, 0) at (x, y)`";
+
 impl Elaboration<'_> {
     pub fn force(&mut self, declared: &ast::Force) {
         self.each(&declared.head, |this, name| {
@@ -55,6 +59,11 @@ impl Elaboration<'_> {
     fn at_point(&mut self, force: &Expr, point: &Expr) -> Option<Vec<(ExprId, Worked)>> {
         let (f, p) = (self.value(force, FORCE), self.value(point, POINT));
         let (f, p) = (f?, p?);
+        if f.length().is_none() && p.length().is_some() {
+            self.sink
+                .report(Code::ScalarForList, force.extent, &[&AS_ITS_PLACE]);
+            return None;
+        }
         if f.length() != p.length() {
             let count = |value: &Value| value.length().unwrap_or(1);
             self.sink

@@ -24,8 +24,13 @@ pub(super) struct Cursor {
     at: usize,
     /// What follows the last token.
     end: Extent,
+    /// The same in words.
+    end_word: &'static str,
     depth: usize,
 }
+
+/// What follows the last token of a group.
+const END: &str = "the end";
 
 impl Cursor {
     /// The tokens of a stream that `end` closes.
@@ -34,6 +39,7 @@ impl Cursor {
             tokens: dissolved(stream),
             at: 0,
             end,
+            end_word: END,
             depth,
         }
     }
@@ -72,11 +78,12 @@ impl Cursor {
             tokens,
             at,
             end,
+            end_word,
             depth,
         } = self;
         let mut parts = Vec::new();
         let mut part = Vec::new();
-        let mut close = |part: Vec<TokenTree>, end: Extent, sink: &mut Diagnostics| {
+        let mut close = |part: Vec<TokenTree>, end: Extent, end_word, sink: &mut Diagnostics| {
             let part = unwrapped(part);
             if part.is_empty() {
                 sink.report(Code::EmptyPart, end, &[&expected]);
@@ -85,6 +92,7 @@ impl Cursor {
                     tokens: part,
                     at: 0,
                     end,
+                    end_word,
                     depth,
                 });
             }
@@ -92,13 +100,13 @@ impl Cursor {
         for token in tokens.into_iter().skip(at) {
             match &token {
                 TokenTree::Punct(punct) if punct.as_char() == ',' => {
-                    close(std::mem::take(&mut part), (&token).into(), sink);
+                    close(std::mem::take(&mut part), (&token).into(), "`,`", sink);
                 }
                 _ => part.push(token),
             }
         }
         if !part.is_empty() {
-            close(part, end, sink);
+            close(part, end, end_word, sink);
         }
         parts
     }
@@ -146,7 +154,7 @@ impl Cursor {
     /// The current token for a message.
     pub fn found(&self) -> String {
         match self.peek() {
-            None => "the end".into(),
+            None => self.end_word.into(),
             Some(TokenTree::Group(group)) => match group.delimiter() {
                 Delimiter::Parenthesis => "`(`".into(),
                 Delimiter::Bracket => "`[`".into(),
@@ -263,6 +271,7 @@ impl Cursor {
             tokens: self.tokens[self.at.min(self.tokens.len())..].to_vec(),
             at: 0,
             end: self.end,
+            end_word: self.end_word,
             depth: self.depth,
         };
         while !probe.is_at_end() {

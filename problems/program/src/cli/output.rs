@@ -101,12 +101,7 @@ pub(super) fn to_file(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Trouble> {
-    results::to_file(path, write).map_err(|error| unwritten(path, &error))
-}
-
-/// A file could not be written.
-pub(super) fn unwritten(path: &Path, error: &io::Error) -> Trouble {
-    Trouble::failed(format_args!("cannot write {}: {error}", path.display()))
+    results::to_file(path, write).map_err(Trouble::failed)
 }
 
 /// Draws a picture into a file of a kind that its name says.

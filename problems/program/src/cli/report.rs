@@ -1,7 +1,7 @@
 //! `lagrange report`: runs to look at, as a page, as frames for slides, or as a picture that moves.
 
 use super::compare::Comparison;
-use super::output::{ready, to_file, unwritten};
+use super::output::{ready, to_file};
 use super::run_args::RunArgs;
 use super::shell;
 use super::terminal::{keep_what_is_done, patiently};
@@ -16,6 +16,7 @@ use crate::report::export::{Moving, Pace};
 use crate::report::frames::{self, Clock, Panel};
 use crate::report::html::{self, Shown};
 use crate::request::Request;
+use crate::results::unwritten;
 use crate::scene::{FILM_STAGES, Scene};
 use clap::{Args, ValueEnum};
 use rayon::prelude::*;
@@ -207,7 +208,7 @@ impl Report {
         };
         moving
             .write(|| frames::stills(&panels, &clock), pace, path)
-            .map_err(|error| unwritten(path, &error))
+            .map_err(|error| Trouble::failed(unwritten(path, &error)))
     }
 
     /// Pixels per unit of a picture.

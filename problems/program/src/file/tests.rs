@@ -49,6 +49,14 @@ fn mistakes_are_marked_where_they_are() {
         ),
         "{told}"
     );
+    // A unit behind its value.
+    for unit in ["1 \"kg\"", "1 kg"] {
+        let told = mistakes(&text.replace("mass: \"kg\" = 1", &format!("mass = {unit}")));
+        let right = "a unit stands before the value: `mass: \"kg\" = 1`";
+        assert!(told.contains(right), "{told}");
+    }
+    let told = mistakes(&text.replace("mass: \"kg\" = 1", "mass = 1 m/s^2"));
+    assert!(told.contains("`mass: \"m/s^2\" = 1`"), "{told}");
     let told = mistakes(&text.replace("stifness", "k"));
     assert!(
         told.contains("declare it as a parameter, `parameters(name = 1)`, a coordinate"),

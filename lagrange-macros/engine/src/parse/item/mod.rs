@@ -126,6 +126,14 @@ fn instead(word: &str, equals: bool, in_file: bool) -> String {
     let others = |words: &[&str]| words.contains(&word);
     match nearest(word, known.iter().copied()) {
         Some(known) => format!("did you mean `{known}`?"),
+        None if !in_file && word == "until" => {
+            "the time at which a run ends is told to the run: `simulation.run(start, 0.0..10.0)`"
+                .to_owned()
+        }
+        None if !in_file && word == "parameters" => {
+            "the fields of the struct are the parameters: `struct Pendulum { mass: f64 }`"
+                .to_owned()
+        }
         None if equals && in_file => format!(
             "a number that can be set stands in `parameters({word} = …)`, a name for an expression in `define({word} = …)`"
         ),

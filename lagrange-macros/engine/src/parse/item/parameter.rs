@@ -2,10 +2,11 @@
 //! `until = 20`, the time at which a run ends.
 
 use super::super::cursor::Cursor;
-use super::super::expression::whole;
+use super::super::expression::{expression, whole};
+use super::super::leftover::leftover;
 use super::super::number::number;
 use super::super::structure;
-use super::super::words::NO_FIELDS;
+use super::super::words::{NO_FIELDS, is_degree};
 use super::quantity::every;
 use super::{once, text};
 use crate::ast::{Expr, ExprKind, Field, Name, Unit};
@@ -120,11 +121,43 @@ fn parameter(part: &mut Cursor, sink: &mut Diagnostics) -> Option<(Field, Expr)>
         return None;
     }
     part.require("=", sink)?;
-    let value = whole(part, sink)?;
+    let value = expression(part, sink)?;
+    if let Some(unit) = unit_behind(part) {
+        let right = format!(
+            "a unit stands before the value: `{}: \"{unit}\" = {value}`",
+            field.name.text
+        );
+        sink.report(Code::Misplaced, part.here(), &[&unit, &right]);
+        part.skip_all();
+        return None;
+    }
+    leftover(part, sink)?;
     if let ExprKind::List(elements) = &value.kind {
         field.length.get_or_insert(elements.len());
     }
     Some((field, value))
+}
+
+/// What stands behind a value as its unit would in a text: `1 "kg"`, `9.81 m/s^2`.
+fn unit_behind(part: &Cursor) -> Option<String> {
+    let unit = match part.peek()? {
+        TokenTree::Literal(literal) => syn::parse_str::<syn::LitStr>(&literal.to_string())
+            .ok()?
+            .value(),
+        TokenTree::Ident(word) if part.literal_behind() && !is_degree(&word.to_string()) => {
+            let goes_on = |token: &TokenTree| match token {
+                TokenTree::Punct(punct) => "/*^".contains(punct.as_char()),
+                _ => false,
+            };
+            if !part.second().is_none_or(goes_on) {
+                return None;
+            }
+            let tokens = part.clone().rest().into_iter();
+            tokens.map(|token| token.to_string()).collect()
+        }
+        _ => return None,
+    };
+    Some(unit)
 }
 
 /// The number N of `[N]`.

@@ -5,7 +5,7 @@ use super::super::expression::{index, whole};
 use super::super::leftover::leftover;
 use super::head;
 use crate::ast::{Element, ItemKind, Start, StartQuantity, StartValue};
-use crate::diagnostics::Diagnostics;
+use crate::diagnostics::{Code, Diagnostics};
 use proc_macro2::Delimiter;
 
 pub(super) fn start(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<ItemKind> {
@@ -36,6 +36,20 @@ fn value(part: &mut Cursor, sink: &mut Diagnostics) -> Option<StartValue> {
         "where the run begins: a position `x = …` or a velocity `der(x) = …`",
         sink,
     )?;
+    if word.text != "der"
+        && let Some(group) = part.group(Delimiter::Parenthesis)
+    {
+        // `v(theta) = 2` and `theta(0) = 2`: one of both names is a coordinate.
+        let inside = part.inside(&group, sink)?.word();
+        let of = inside.map_or_else(|| word.text.clone(), |inside| inside.text);
+        let what = format!("a position `{of} = …` or a velocity `der({of}) = …`");
+        sink.report(
+            Code::Expected,
+            &word,
+            &[&what, &format!("`{}(…)`", word.text)],
+        );
+        return None;
+    }
     let (quantity, name, element) = match part.group(Delimiter::Parenthesis) {
         Some(group) if word.text == "der" => {
             part.next();
