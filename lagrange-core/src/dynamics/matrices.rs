@@ -3,7 +3,7 @@
 use super::Dynamics;
 use super::shape::{Extent, SYSTEM};
 use crate::arithmetic::Scalar;
-use crate::linear::{Freedom, dot, least_norm};
+use crate::linear::{Freedom, Rank, dot, least_norm};
 use nalgebra::{DMatrix, DVector};
 
 impl<T: Scalar> Dynamics<T> {
@@ -113,8 +113,8 @@ impl<T: Scalar> Dynamics<T> {
         let attitudes: Vec<_> = attitudes.collect();
         // Forces that act through multipliers press the columns apart: rows that depend on one another may have independent forces.
         let rank = match pattern.is_coupled() {
-            false => self.independent_rows(),
-            true => acting.len(),
+            false => Rank::Known(self.independent_rows()),
+            true => Rank::AtMost(acting.len()),
         };
         let freedom = least_norm(&columns, n, rank, &mut forces);
         let mut least = LeastForces {
@@ -170,7 +170,7 @@ impl<T: Scalar> Dynamics<T> {
         }
         let mut forces = vec![T::default(); count + 1];
         // A column that others replace is not determined.
-        !least_norm(&matrix, n, count + 1, &mut forces).is_determined(count)
+        !least_norm(&matrix, n, Rank::AtMost(count + 1), &mut forces).is_determined(count)
     }
 
     /// Whether forces that the rows leave open change the motion at the last [`Self::value`]: the friction of a body that slides on
@@ -185,7 +185,8 @@ impl<T: Scalar> Dynamics<T> {
             }
         }
         let mut forces = vec![T::default(); acting.len()];
-        let open = least_norm(&rows, n, self.independent_rows(), &mut forces).dimension();
+        let rank = Rank::Known(self.independent_rows());
+        let open = least_norm(&rows, n, rank, &mut forces).dimension();
         open > self.least_norm_of_acting().freedom.dimension()
     }
 

@@ -31,7 +31,9 @@ pub(crate) struct ForceBounds {
     pub(crate) sizes: Vec<f64>,
     /// Per row: at the forces of least norm.
     pub(crate) values: Vec<f64>,
-    /// How each row depends on the forces, without what has an effect.
+    /// The largest factor of each row,
+    factors: Vec<f64>,
+    /// and how the row depends on the forces, without what has an effect, as parts of that.
     changes: Vec<DVector<f64>>,
     /// B, an orthogonal basis of these, of vectors that are equally long,
     basis: DMatrix<f64>,
@@ -44,6 +46,7 @@ impl ForceBounds {
         self.cones.clear();
         self.sizes.clear();
         self.values.clear();
+        self.factors.clear();
         self.changes.clear();
     }
 
@@ -58,17 +61,14 @@ impl ForceBounds {
     ) -> bool {
         let changes = rows.map(|(terms, _)| {
             let largest = terms.iter().fold(0.0_f64, |m, (_, a)| m.max(a.abs()));
+            let part = |a: f64| if largest > 0.0 { a / largest } else { 0.0 };
             let change = DVector::from_fn(freedom.size(), |j, _| {
-                terms.iter().map(|&(i, a)| a * freedom.row(i)[j]).sum()
+                let terms = terms.iter();
+                terms.map(|&(i, a)| part(a) * freedom.row(i)[j]).sum()
             });
-            let share = if largest > 0.0 {
-                change.amax() / largest
-            } else {
-                0.0
-            };
-            (change, share)
+            (change, largest)
         });
-        if changes.iter().all(|&(_, share)| share <= OPEN) {
+        if changes.iter().all(|(change, _)| change.amax() <= OPEN) {
             return false;
         }
         let made_of = rows.iter().map(|(terms, constant)| {
@@ -81,12 +81,13 @@ impl ForceBounds {
             1 => Cone::Ray(first),
             _ => Cone::SecondOrder(first),
         });
-        for ((terms, constant), (mut change, share)) in rows.into_iter().zip(changes) {
+        for ((terms, constant), (mut change, factor)) in rows.into_iter().zip(changes) {
             let value: f64 = terms.iter().map(|&(i, a)| a * forces(i)).sum();
             self.values.push(value + constant);
-            if share <= CANCELLED {
+            if change.amax() <= CANCELLED {
                 change.fill(0.0);
             }
+            self.factors.push(factor);
             self.changes.push(change);
         }
         true
@@ -101,7 +102,7 @@ impl ForceBounds {
         let least = (SMALLEST * sizes.fold(0.0, f64::max)).max(f64::MIN_POSITIVE);
         let basis = basis(&self.changes, width);
         self.open = DMatrix::from_fn(self.changes.len(), basis.ncols(), |i, j| {
-            self.changes[i].dot(&basis.column(j))
+            self.factors[i] * self.changes[i].dot(&basis.column(j))
         });
         for (size, cone) in self.sizes.iter_mut().zip(&self.cones) {
             *size = size.max(least);
@@ -185,10 +186,10 @@ impl ForceBounds {
     }
 }
 
-/// An orthonormal basis of the space that these rows span (Gram & Schmidt, the largest remainder first).
+/// An orthonormal basis of the space that these rows span (Gram & Schmidt, the largest remainder first). Rows that hardly depend on the forces do
+/// so with the errors of those that do.
 fn basis(rows: &[DVector<f64>], width: usize) -> DMatrix<f64> {
-    let units = rows.iter().filter_map(|row| row.try_normalize(0.0));
-    let mut left: Vec<DVector<f64>> = units.collect();
+    let mut left = rows.to_vec();
     let mut basis: Vec<DVector<f64>> = Vec::new();
     while let Some(largest) = (left.iter()).max_by(|x, y| x.norm().total_cmp(&y.norm()))
         && largest.norm() > OPEN

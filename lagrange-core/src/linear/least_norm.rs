@@ -11,8 +11,7 @@
 //! to leave their forces open.
 //! Reference: Golub & Van Loan 2013, Matrix Computations, sections 5.2.9 and 5.6.
 
-use super::lu::Lu;
-use super::lu::dot;
+use super::lu::{Lu, dot, negligible};
 use crate::arithmetic::Scalar;
 
 /// Forces that have no effect, as the row-major projector P onto them: λ is as good as λ + P y.
@@ -48,13 +47,22 @@ impl Freedom {
     }
 }
 
+/// How many columns are independent.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Rank {
+    /// As many as there seem to be, up to this number.
+    AtMost(usize),
+    /// This number, as whoever solved for the forces knows: more seem to be where constraints that depend on one another hold to a tolerance
+    /// only, and fewer where next to nothing is left of a row beside others, as in a dead centre.
+    Known(usize),
+}
+
 /// Replaces `forces` by those of least norm with the same effect, and says how else they could be. `columns` is C by
-/// columns: the generalized force of each unit force, `coordinates` elements each. No more than `rank` of them are independent: more
-/// seem to be where constraints that depend on one another hold to a tolerance only.
+/// columns: the generalized force of each unit force, `coordinates` elements each.
 pub(crate) fn least_norm<T: Scalar>(
     columns: &[T],
     coordinates: usize,
-    rank: usize,
+    rank: Rank,
     forces: &mut [T],
 ) -> Freedom {
     let (n, m) = (coordinates, forces.len());
@@ -70,8 +78,12 @@ pub(crate) fn least_norm<T: Scalar>(
             T::from_f64(if largest > 0.0 { 1.0 / largest } else { 0.0 })
         })
         .collect();
+    let limits = match rank {
+        Rank::AtMost(most) => (negligible::<T>(), most),
+        Rank::Known(rank) => (0.0, rank),
+    };
     let mut lu = Lu::default();
-    lu.factor(wide, |i, row| {
+    lu.factor_to(limits, wide, |i, row| {
         if i < n {
             let scaled = scales
                 .iter()
@@ -84,7 +96,7 @@ pub(crate) fn least_norm<T: Scalar>(
     });
     // Each row of the basis with its square.
     let mut basis: Vec<(Vec<T>, T)> = Vec::with_capacity(n);
-    for i in lu.independent_rows().take(rank) {
+    for i in lu.independent_rows() {
         let mut row: Vec<T> = (0..m).map(|j| element(i, j)).collect();
         for (other, square) in basis.iter().chain(&basis) {
             let part = dot(other, &row) / *square;
@@ -116,14 +128,14 @@ pub(crate) fn least_norm<T: Scalar>(
 
 #[cfg(test)]
 mod tests {
-    use super::least_norm;
+    use super::{Rank, least_norm};
 
     #[test]
     fn equal_rods_share_and_another_keeps_its_force() {
         // Forces 0 and 1 along x, force 2 along y and force 3 none.
         let columns = [1.0, 0.0, 2.0, 0.0, 0.0, 3.0, 0.0, 0.0];
         let mut forces = [5.0, 0.0, 7.0, 1.0];
-        let freedom = least_norm(&columns, 2, 2, &mut forces);
+        let freedom = least_norm(&columns, 2, Rank::AtMost(2), &mut forces);
         // Least norm of λ₀ + 2 λ₁ = 5.
         for (found, expected) in forces.into_iter().zip([1.0_f64, 2.0, 7.0, 0.0]) {
             assert!((found - expected).abs() < 1e-14, "{forces:?}");
@@ -140,11 +152,29 @@ mod tests {
         // Two rods and a screw along x; along y rounding is all that there is of them.
         let columns = [1.0, 1e-17, 1.0, -3e-17, 2.0, 2e-17];
         let mut forces = [6.0_f64, 0.0, 0.0];
-        let freedom = least_norm(&columns, 2, 1, &mut forces);
+        let freedom = least_norm(&columns, 2, Rank::Known(1), &mut forces);
         assert_eq!(freedom.dimension(), 2);
         for (found, expected) in forces.into_iter().zip([1.0, 1.0, 2.0]) {
             assert!((found - expected).abs() < 1e-15, "{forces:?}");
         }
+    }
+
+    #[test]
+    fn a_row_of_which_next_to_nothing_is_left_determines_forces_where_it_is_known_to() {
+        // Two slotted links in their dead centres, and a brake on each: along the crank 1e-14 of the links acts.
+        let columns = [
+            1e-14, 1.0, 0.0, 3e-14, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0,
+        ];
+        let mut forces = [2.0_f64, 1.0, 0.0, 0.0];
+        let seen = least_norm(&columns, 3, Rank::AtMost(4), &mut forces.clone());
+        assert_eq!(seen.dimension(), 2);
+        let freedom = least_norm(&columns, 3, Rank::Known(3), &mut forces);
+        assert_eq!(freedom.dimension(), 1);
+        // The same push along the crank.
+        assert!(
+            (forces[0] + 3.0 * forces[1] - 5.0).abs() < 1e-14,
+            "{forces:?}"
+        );
     }
 
     #[test]
@@ -154,7 +184,7 @@ mod tests {
         let columns = [-0.4, 1.0, 0.0, flat, flat, 0.7, 0.0, 0.0, 1.0];
         let pull = [3.0_f64, 2.0, 5.0];
         let mut forces = pull;
-        let freedom = least_norm(&columns, 3, 3, &mut forces);
+        let freedom = least_norm(&columns, 3, Rank::AtMost(3), &mut forces);
         assert_eq!(freedom.dimension(), 0);
         assert!((0..3).all(|i| freedom.row(i).iter().all(|x| x.abs() < 1e-14)));
         let off = forces.iter().zip(pull).map(|(x, y)| (x - y).abs());
@@ -163,7 +193,7 @@ mod tests {
         let columns: [f64; 15] =
             core::array::from_fn(|i| columns[if i < 9 { i } else { i % 3 + 6 }]);
         let mut forces = [3.0_f64, 2.0, 5.0, 4.0, 0.0];
-        let freedom = least_norm(&columns, 3, 3, &mut forces);
+        let freedom = least_norm(&columns, 3, Rank::AtMost(3), &mut forces);
         assert_eq!(freedom.dimension(), 2);
         assert!(freedom.is_determined(0) && freedom.is_determined(1) && !freedom.is_determined(2));
         let off = forces.iter().zip([3.0, 2.0, 3.0, 3.0, 3.0]);

@@ -32,7 +32,7 @@ pub(crate) use assembly::{acting, acts};
 pub(crate) use bounded::{ForceBounds, Linear};
 pub(crate) use conic::{Cone, ConicPoint};
 pub(crate) use consistent::Equilibrated;
-pub(crate) use least_norm::{Freedom, least_norm};
+pub(crate) use least_norm::{Freedom, Rank, least_norm};
 pub(crate) use lemke::{Lemke, Outcome as LemkeOutcome};
 pub(crate) use lu::dot;
 pub(crate) use pattern::KktPattern;

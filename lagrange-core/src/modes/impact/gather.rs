@@ -7,7 +7,7 @@ use super::pattern::ROUNDING;
 use crate::arithmetic::{Scalar, rounding};
 use crate::dynamics::Dynamics;
 use crate::effects::Item;
-use crate::linear::{Equilibrated, least_norm};
+use crate::linear::{Equilibrated, Rank, least_norm};
 use crate::mode::FrictionMode;
 use crate::modes::scale::AT_REST;
 use crate::system::{Normal, Restitution, ValueRef};
@@ -358,7 +358,7 @@ impl<T: Scalar> Gathering<T> {
                 .iter()
                 .map(|&row| out.impulses[row])
                 .collect();
-            least_norm(columns, n, shared.len(), &mut shared);
+            least_norm(columns, n, Rank::AtMost(shared.len()), &mut shared);
             for (&row, impulse) in self.bilateral.iter().zip(shared) {
                 out.impulses[row] = impulse;
             }

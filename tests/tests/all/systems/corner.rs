@@ -2,7 +2,7 @@
 
 use lagrange_core::prelude::*;
 use lagrange_tests::fuzz::METHODS;
-use lagrange_tests::{agree, certified, run_by, times, words};
+use lagrange_tests::{Random, agree, certified, event, run_by, times, words};
 
 /// A ball rolls along the corner of a tub's wall and floor.
 #[derive(Lagrangian, Clone, Debug)]
@@ -279,6 +279,57 @@ fn a_cube_that_a_wall_has_pushed_slides_on() {
                 );
                 agree(&asked, q[2], half, 20.0 * tolerance);
                 certified(asked, &motion);
+            }
+        }
+    }
+}
+
+/// A rod that is pushed into a corner lies all but flat on the floor.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, p),
+    kinetic = (der(x)^2 + der(y)^2)/2 + der(p)^2/6,
+    potential = 9.81*y,
+    contact(heel: y - sin(p) >= 0),
+    friction(heel_grip on heel: slip = der(x) - der(cos(p)), static = floor_mu),
+    contact(wall: 1 - x - cos(p) >= 0),
+    friction(wall_grip on wall: slip = der(y) + der(sin(p)), static = wall_mu),
+    contact(tip: y + sin(p) >= 0),
+    force(pushes: x = push),
+    start(lies: x = 1 - cos(lift), y = sin(lift), p = lift),
+)]
+struct Rod {
+    floor_mu: f64,
+    wall_mu: f64,
+    push: f64,
+    lift: f64,
+}
+
+/// The wall does not hold it up, however little its tip has to fall: forces that did would be as many times larger than the friction there is.
+#[test]
+fn a_rod_that_lies_all_but_flat_falls() {
+    let mut random = Random::new(48);
+    for _ in 0..10 {
+        let rod = Rod {
+            floor_mu: random.between(0.05, 0.3),
+            wall_mu: random.between(0.05, 0.2),
+            push: random.between(3.0, 8.0),
+            lift: 10_f64.powf(random.between(-8.6, -6.0)),
+        };
+        // Both slip: with the loads N of the heel and W = push + floor_mu N of the wall, ÿ = p̈ = −9.81 + N + wall_mu W and p̈/3 = −N + wall_mu W.
+        let fixed = rod.wall_mu * rod.push;
+        let turned = rod.wall_mu * rod.floor_mu;
+        let heel = (9.81 + 2.0 * fixed) / (4.0 - 2.0 * turned);
+        let falls = 3.0 * (heel - fixed - turned * heel);
+        let time = (2.0 * rod.lift / falls).sqrt();
+        for method in ["auto", "dop853", "dopri5", "verner98", "radau5"] {
+            // What is nearer than the tolerance touches.
+            for tolerance in [1e-9, 1e-12] {
+                let what = format!("{rod:?} by {method} at {tolerance:e}");
+                let motion = run_by(&rod, (method, tolerance), rod.at(Rod::LIES), 0.2);
+                let lands = event(&motion, "tip", "impact").time;
+                agree(&what, lands / time, 1.0, 1e-5);
+                certified(&what, &motion);
             }
         }
     }

@@ -4,7 +4,7 @@
 
 use super::{Pattern, Phase, Slide};
 use crate::arithmetic::Scalar;
-use crate::linear::{Freedom, least_norm};
+use crate::linear::{Freedom, Rank, least_norm};
 use crate::modes::impact::collision::{Collision, NormalSource};
 use nalgebra::DVector;
 
@@ -21,7 +21,7 @@ impl<T: Scalar> Pattern<T> {
             .map(|(i, row)| self.effect(c, i, row))
             .collect();
         let mut shared: Vec<T> = unknowns.map(|&row| self.impulses[row]).collect();
-        let count = shared.len();
+        let count = Rank::AtMost(shared.len());
         let freedom = least_norm(&columns, c.size, count, &mut shared);
         // Where nothing sticks, the combination without contacts that would pull does the same.
         if self.slides.contains(&Slide::Stick)
