@@ -36,6 +36,8 @@ pub(super) struct Locator<T> {
     /// Falling guards found in the present step: (guard, part of the step, half width).
     falls: Vec<(Guard, f64, f64)>,
     pub(super) fallen: Vec<Guard>,
+    /// Contacts by which the motion passes at the end of the present step: it comes to their surface and leaves their region at once.
+    pub(super) passing: Vec<usize>,
     /// Composite guards that seemed to fall in the present step where forces keep all bounds.
     pub(super) refuted: Vec<CompositeGuard>,
     /// Slips of two components that come to rest with the end of the step.
@@ -68,6 +70,7 @@ impl<T: Scalar> Locator<T> {
             blur: 0.0,
             falls: Vec::new(),
             fallen: Vec::new(),
+            passing: Vec::new(),
             refuted: Vec::new(),
             rests: Vec::new(),
             resting: mode.clone(),

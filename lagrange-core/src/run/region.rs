@@ -10,7 +10,7 @@ use super::guard_polynomials::rounding;
 use crate::arithmetic::Scalar;
 use crate::effects::Item;
 use crate::events::{Direction, find_root};
-use crate::integrate::polynomial_value as value;
+use crate::integrate::{polynomial_derivative as slope, polynomial_value as value};
 use crate::mode::Mode;
 use crate::modes::guard::Guard;
 use crate::system::{Contact, ValueRef};
@@ -33,7 +33,7 @@ impl<T: Scalar> Run<T> {
         region.is_none_or(|place| self.dynamics.motion(place).value() > 0.0)
     }
 
-    /// Whether a guard's contact exists at part `s` of the step.
+    /// Whether a guard's contact exists at part `s` of the step and just after it.
     pub(super) fn within_region(&self, guard: Guard, s: f64) -> bool {
         let Guard::Gap(c) = guard else {
             return true;
@@ -42,9 +42,14 @@ impl<T: Scalar> Run<T> {
         let Some(curve) = self.locator.polynomials.of(edge) else {
             return true;
         };
-        // Just after the edge has been located, the side that the motion goes to.
-        self.judged(edge, curve)
-            .is_none_or(|curve| value(curve, s) >= 0.0)
+        // Just after the edge has been located, its first coefficient is zero.
+        let is_in = |curve| value(curve, s) >= 0.0;
+        !self.leaves(curve, s) && self.judged(edge, curve).is_none_or(is_in)
+    }
+
+    /// Whether the motion is at an edge, of this curve, and goes out.
+    fn leaves(&self, edge: &[f64], s: f64) -> bool {
+        value(edge, s).abs() <= self.touching() && slope(edge, s) < 0.0
     }
 
     /// Where the motion enters the region of an open contact whose gap vanishes there: (part of the step, half width).
@@ -66,11 +71,13 @@ impl<T: Scalar> Run<T> {
 
     /// Remembers which surfaces the motion is below at part `end` of the step.
     pub(super) fn remember_regions(&mut self, end: f64) {
+        self.locator.passing.clear();
         let limited = |contact: &Contact| contact.region.is_some();
         if end == 0.0 || !self.description().contacts.iter().any(limited) {
             return;
         }
         let mut below = core::mem::take(&mut self.now.below);
+        let mut passing = core::mem::take(&mut self.locator.passing);
         for (guard, curve) in self.locator.polynomials.of_mode() {
             let Guard::Gap(c) = guard else {
                 continue;
@@ -85,9 +92,16 @@ impl<T: Scalar> Run<T> {
             // Within the region it can only be a root that rounding has put into the next step.
             let blur = (1e-9 * size).max(rounding(gap.abs(), guard, &self.dynamics));
             let passed = gap < -blur || !self.within_region(guard, end);
-            below[c] = gap < 0.0 && (below[c] || passed);
+            // What reaches the edge and the surface at once passes by it.
+            let edge = self.locator.polynomials.of(Guard::Region(c));
+            let passes = gap.abs() <= self.touching()
+                && slope(curve, end) < 0.0
+                && edge.is_some_and(|edge| self.leaves(edge, end));
+            passing.extend(passes.then_some(c));
+            below[c] = passes || gap < 0.0 && (below[c] || passed);
         }
         self.now.below = below;
+        self.locator.passing = passing;
     }
 
     /// At an edge the next surface may begin without a step: closes contacts whose gaps vanish where their regions begin. So they do where
@@ -108,7 +122,10 @@ impl<T: Scalar> Run<T> {
                 continue;
             };
             let was_closed = self.now.mode.contacts[c];
-            if was_closed || !self.dynamics.effects().includes(d, Item::Contact(c)) {
+            if was_closed
+                || self.locator.passing.contains(&c)
+                || !self.dynamics.effects().includes(d, Item::Contact(c))
+            {
                 continue;
             }
             let number = |place: ValueRef| self.dynamics.motion(place).value();

@@ -526,3 +526,48 @@ fn what_passes_below_an_edge_is_certified() {
         }
     }
 }
+
+/// A smooth ramp that ends at the edge of a table.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = gravity * y,
+    contact(ramp: y + tan(slope)*x >= 0, where x <= 0),
+    contact(table: y >= 0, where x <= 0),
+    start(above: x = -way*cos(slope), y = way*sin(slope)),
+)]
+struct Ramp {
+    gravity: f64,
+    slope: f64,
+    way: f64,
+}
+
+/// What slides down it reaches the table and its edge at once, and flies off in the direction of the ramp.
+#[test]
+fn what_reaches_a_surface_at_its_edge_passes_by_it() {
+    for (slope, way) in [(0.3, 0.4), (0.6435, 1.0), (0.9, 0.7), (1.2, 2.0)] {
+        let ramp = Ramp {
+            gravity: G,
+            slope,
+            way,
+        };
+        let drop = way * slope.sin();
+        let (speed, flies) = ((2.0 * G * drop).sqrt(), 0.3);
+        let leaves = 2.0 * way / speed;
+        let [vx, vy] = [speed * slope.cos(), -speed * slope.sin()];
+        let end = [vx * flies, vy * flies - G * flies * flies / 2.0];
+        for method in ["auto", "dop853", "dopri5", "verner98", "radau5"] {
+            for tolerance in [1e-6, 1e-9, 1e-12] {
+                let what = format!("{ramp:?} by {method} at {tolerance:e}");
+                let start = ramp.at(Ramp::ABOVE);
+                let motion = run_by(&ramp, (method, tolerance), start, leaves + flies);
+                assert_eq!(story(&motion), words(&[("ramp", "lost")]), "{what}");
+                for (q, expected) in motion.final_state().q.iter().zip(end) {
+                    agree(&what, *q, expected, 20.0 * tolerance.max(1e-11));
+                }
+                certified(&what, &motion);
+            }
+        }
+    }
+}
