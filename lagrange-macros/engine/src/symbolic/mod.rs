@@ -8,6 +8,7 @@
 
 mod angles;
 mod differentiate;
+mod digits;
 mod evaluate;
 mod expand;
 mod factor;

@@ -3,6 +3,9 @@
 
 use super::{ExprId, Node, Pool};
 
+/// Digits that a form loses count as so many operations.
+const DIGITS: usize = 6;
+
 /// Terms and nodes looked at by one call of `simplify`; beyond it, forms stay as built. Some seconds, unoptimised.
 const CALL_BUDGET: u64 = 1_000_000;
 
@@ -16,12 +19,14 @@ impl Pool {
         let mut known = std::mem::take(&mut self.simplified);
         let limit = POOL_BUDGET.min(self.effort + CALL_BUDGET);
         let never = |_: &Pool, _| false;
+        let under_roots = self.sums_under_roots(e);
         let simplified = self.ascend(e, &mut known, never, |pool, e, known| {
+            let under_root = under_roots.contains(&e);
             let e = pool.with_children(e, known);
             if pool.effort > limit || pool.is_full() {
                 e
             } else {
-                pool.cheapest(e)
+                pool.cheapest(e, under_root)
             }
         });
         let mut simple = simplified.unwrap_or(e);
@@ -37,8 +42,8 @@ impl Pool {
         simple
     }
 
-    /// The cheapest form of an expression whose sub-expressions are simplified.
-    fn cheapest(&mut self, e: ExprId) -> ExprId {
+    /// The cheapest form of an expression whose sub-expressions are simplified, and whether it stands under a root.
+    fn cheapest(&mut self, e: ExprId, under_root: bool) -> ExprId {
         let worthwhile = match self.node(e) {
             Node::Sum { constant, terms } => terms.len() + usize::from(!constant.is_zero()) > 1,
             Node::Product(factors) => factors
@@ -49,9 +54,11 @@ impl Pool {
         if !worthwhile {
             return e;
         }
+        let keeps_squares = under_root && self.is_sum_of_squares(e);
         let mut choice = Choice {
             form: e,
-            cost: self.operations(&[e]),
+            keeps_squares,
+            cost: self.operations(&[e]) + DIGITS * self.losses(e),
             seen: vec![e],
         };
         for flat in self.flat_forms(e) {
@@ -95,6 +102,8 @@ impl Pool {
         choice.seen.push(form);
         let cost = self.operations(&[form]);
         self.effort += cost as u64;
+        let loses = choice.keeps_squares && !self.is_sum_of_squares(form);
+        let cost = cost + DIGITS * (self.losses(form) + usize::from(loses));
         if cost < choice.cost || (cost == choice.cost && self.needs_less_once(form, choice.form)) {
             (choice.form, choice.cost) = (form, cost);
         }
@@ -117,6 +126,9 @@ impl Pool {
 /// The cheapest form so far.
 struct Choice {
     form: ExprId,
+    /// Whether what it is a form of is a sum of squares and has to keep its digits.
+    keeps_squares: bool,
+    /// Operations, and digits lost.
     cost: usize,
     /// What has been looked at.
     seen: Vec<ExprId>,

@@ -4,7 +4,7 @@ use super::{PI, state};
 use core::f64::consts::TAU;
 use lagrange_core::prelude::*;
 use lagrange_tests::fuzz::METHODS;
-use lagrange_tests::{agree, root, run_by};
+use lagrange_tests::{Random, agree, event, root, run_by};
 
 /// A rudder steers a boat back to its course, by the angle between −π and π.
 #[derive(Lagrangian, Clone, Debug)]
@@ -107,5 +107,59 @@ fn what_passes_the_middle_of_a_funnel_is_pulled_back() {
         let State { q, .. } = run.final_state();
         agree(&method, q[0], 0.6 * place, 1e-6);
         agree(&method, q[1], 0.8 * place, 1e-6);
+    }
+}
+
+/// A ball on a line through the place that a string begins at, and whose distance is watched: what is declared with numbers, not with parameters.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    contact(string: norm((x - 0.337, y + 0.281)) <= 1.9),
+    mark(near: norm((x - 0.337, y + 0.281)) - 0.7),
+    mark(other: sqrt((x - 0.613)^2) - 0.1),
+)]
+struct Tether {}
+
+/// It passes through the middle of the string, where the squares of differences vanish to the last bit, and is caught beyond.
+#[test]
+fn distances_from_numbers_keep_their_digits() {
+    let mut random = Random::new(51);
+    for _ in 0..10 {
+        let speed = random.between(0.5, 2.0);
+        let (sin, cos) = random.between(0.0, 1.2).sin_cos();
+        let far = random.between(0.8, 1.4);
+        let start = state(
+            &[0.337 - far * cos, -0.281 - far * sin],
+            &[speed * cos, speed * sin],
+        );
+        for method in ["auto", "dop853", "verner98", "radau5"] {
+            for tolerance in [1e-6, 1e-9, 1e-12] {
+                let what = format!("{speed} {cos} {far} by {method} at {tolerance:e}");
+                let end = (far + 1.95) / speed;
+                let motion = run_by(&Tether {}, (method, tolerance), start.clone(), end);
+                let of = |item: usize| {
+                    let marks = motion.events().iter();
+                    let marks = marks.filter(move |e| e.subject == Subject::Mark(item));
+                    marks
+                        .map(|mark| mark.time * speed - far)
+                        .collect::<Vec<f64>>()
+                };
+                let side = (0.613 - 0.337) / cos;
+                for (times, expected) in [
+                    (of(0), [-0.7, 0.7]),
+                    (of(1), [side - 0.1 / cos, side + 0.1 / cos]),
+                ] {
+                    let expected = expected.into_iter().filter(|x| *x < 1.9);
+                    let expected: Vec<f64> = expected.collect();
+                    assert_eq!(times.len(), expected.len(), "{what}: {times:?}");
+                    for (x, y) in times.iter().zip(expected) {
+                        agree(&what, *x, y, 1e2 * tolerance);
+                    }
+                }
+                let caught = event(&motion, "string", "impact").time * speed - far;
+                agree(&what, caught, 1.9, 1e2 * tolerance);
+            }
+        }
     }
 }

@@ -28,6 +28,10 @@ fn simplifies_to() {
             "(x - l*sin(y))^2 + (v - l*cos(y))^2",
             "(x - l*sin(y))^2 + (v - l*cos(y))^2",
         ),
+        // Multiplied out it would be one operation less, and lose its digits where both differences vanish.
+        ("sqrt((x - 1)^2 + y^2)", "sqrt(y^2 + (x - 1)^2)"),
+        ("m/((x - 1)^2 + y^2 + 1/8)", "m/((y^2 + (x - 1)^2 + 1/8))"),
+        ("(x - 1)^2 + 2*x + y^2", "x^2 + y^2 + 1"),
         ("cos(x)*cos(y) + sin(x)*sin(y)", "cos(x - y)"),
         ("cos(x)*cos(y) - sin(x)*sin(y)", "cos(x + y)"),
         ("m*sin(x)*cos(y) + m*cos(x)*sin(y)", "m*sin(x + y)"),
