@@ -9,6 +9,17 @@ use crate::system::Description;
 use crate::trajectory::State;
 use core::cmp::Ordering;
 
+/// What a condition that vanishes is taken for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Zero {
+    /// Zero, for which the declaration says what holds.
+    AsDeclared,
+    /// What it is where this gap opens.
+    AsGapOpens(usize),
+    /// Less than zero.
+    Below,
+}
+
 /// Evaluates the declared quantities with the effects of a run.
 #[derive(Debug)]
 pub(super) struct Equations {
@@ -245,18 +256,20 @@ impl Equations {
         }
     }
 
-    /// Choices take what is zero to within the tolerance, in the state that was balanced, for zero; or, given a gap that is, for what it is where the
-    /// gap opens.
-    pub fn take_what_vanishes(&mut self, gap: Option<usize>, at: Situation<'_>, tolerance: f64) {
+    /// Choices take what is zero to within the tolerance, in the state that was balanced, for this.
+    pub fn take_what_vanishes(&mut self, zero: Zero, at: Situation<'_>, tolerance: f64) {
         let mut guards = self.balancing.guards();
         guards.retain(|&guard| self.vanishes(guard, at, tolerance));
-        let opening = gap.map(|gap| self.gradient(gap));
+        let opening = match zero {
+            Zero::AsGapOpens(gap) => Some(self.gradient(gap)),
+            Zero::AsDeclared | Zero::Below => None,
+        };
         let side = |guard: usize| {
             let rises = opening.as_ref().map_or(0.0, |opening| {
                 let gradient = self.gradient(guard);
                 gradient.iter().zip(opening).map(|(a, b)| a * b).sum()
             });
-            match rises < 0.0 {
+            match zero == Zero::Below || rises < 0.0 {
                 true => (guard, Ordering::Less),
                 false => (guard, Ordering::Equal),
             }
@@ -310,6 +323,13 @@ impl Equations {
     pub fn is_beyond(&self) -> bool {
         let mut pairs = self.residual.iter().zip(&self.size);
         pairs.any(|(error, size)| error.abs() > self.exact * size)
+    }
+
+    /// The largest error of what balances at the last state, relative to its size.
+    pub fn imbalance(&self) -> f64 {
+        let pairs = self.residual.iter().zip(&self.size);
+        let parts = pairs.filter(|(error, _)| **error != 0.0);
+        parts.fold(0.0, |most, (error, size)| most.max(error.abs() / size))
     }
 
     /// Finds ∂L/∂v and Σ λ∇g at a state: `velocity` and `variation` of [`Self::gradients`].

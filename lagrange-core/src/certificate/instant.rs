@@ -1,6 +1,6 @@
 //! One instant: the balance of forces, constraints, contacts and frictions as the mode demands.
 
-use super::equations::{Equations, Situation};
+use super::equations::{Equations, Situation, Zero};
 use super::{Findings, MARGIN, Subject};
 use crate::effects::Item;
 use crate::error::Level;
@@ -25,6 +25,33 @@ pub(super) struct Energies {
 }
 
 impl Equations {
+    /// Choices whose conditions vanish to within the tolerance take the side on which the state balances best. A force may jump at the surface of a contact
+    /// that is closed; of one that has just opened the state may be on either side, and so it may be between two events of one instant.
+    fn take_sides(&mut self, at: Situation<'_>, mode: &Mode, tolerance: f64) {
+        let opens = self.gap_that_opens(at, mode, tolerance);
+        let sides = [
+            Some(Zero::AsDeclared),
+            opens.map(Zero::AsGapOpens),
+            Some(Zero::Below),
+        ];
+        let (mut best, mut least) = (None, self.imbalance());
+        for side in sides.into_iter().flatten() {
+            self.take_what_vanishes(side, at, tolerance);
+            self.balance(at);
+            if self.imbalance() < least {
+                (best, least) = (Some(side), self.imbalance());
+            }
+            if !self.is_beyond() {
+                return;
+            }
+        }
+        match best {
+            Some(side) => self.take_what_vanishes(side, at, tolerance),
+            None => self.take_all_as_it_is(),
+        }
+        self.balance(at);
+    }
+
     /// Checks whether a state with the reported accelerations and forces balances, and its energies; remembers how large the forces are.
     pub fn examine_balance(
         &mut self,
@@ -38,17 +65,7 @@ impl Equations {
             *largest = largest.max(*size);
         }
         if self.is_beyond() {
-            // A force may jump at the surface of a contact that is closed, where the state is to within the tolerance.
-            let tolerance = MARGIN * findings.tolerance;
-            self.take_what_vanishes(None, at, tolerance);
-            self.balance(at);
-            // Of one that has just opened the state may be on either side.
-            if self.is_beyond()
-                && let Some(gap) = self.gap_that_opens(at, mode, tolerance)
-            {
-                self.take_what_vanishes(Some(gap), at, tolerance);
-                self.balance(at);
-            }
+            self.take_sides(at, mode, MARGIN * findings.tolerance);
         }
         self.examine_energies(at, reported, findings);
         if self.is_beyond() {

@@ -3,7 +3,7 @@
 use lagrange_core::prelude::*;
 use lagrange_problems::catalogue::scenes;
 use lagrange_tests::fuzz::{self, Verdict};
-use lagrange_tests::{Random, certified, run, words};
+use lagrange_tests::{Random, certified, run, run_by, words};
 
 /// Random runs that fall short of their bounds, each for a reason that is to be found.
 const SHORT: [u64; 0] = [];
@@ -223,6 +223,54 @@ fn what_is_all_rounding_is_no_error() {
         );
         assert_eq!(words(&deaf).len(), 1, "{:?}", words(&deaf));
         certified("deaf", &deaf);
+    }
+}
+
+/// A piston that a crank moves, with gas on it on its way down, rubs on the wall of its cylinder.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(phi, psi, x, y),
+    define(
+        pin = [arm*sin(phi), arm*cos(phi)],
+        top = pin + [-rod*sin(psi), rod*cos(psi)],
+        middle = (pin + top)/2,
+    ),
+    kinetic = wheel/2*der(phi)^2 + dot(der(middle), der(middle))/5 + rod^2/60*der(psi)^2 + (der(x)^2 + der(y)^2)/4,
+    potential = 9.81*(2/5*middle[1] + y/2),
+    constraint(joint[k in 0..2]: top[k] == [x, y][k]),
+    constraint(wall: x == 0),
+    friction(rub on wall: slip = der(y), static = 1/10),
+    force(gas: y = if(der(y) <= 0, -push, 0)),
+    start(turning: phi = 0, y = arm + rod, der(phi) = speed, der(psi) = speed*arm/rod, psi = 0),
+)]
+struct Piston {
+    arm: f64,
+    rod: f64,
+    wheel: f64,
+    push: f64,
+    speed: f64,
+}
+
+/// In its dead centres its slip, the condition of the gas and the force of the wall vanish together, and rounding says which of them does first.
+#[test]
+fn what_vanishes_together_may_be_on_either_side_in_between() {
+    let mut random = Random::new(50);
+    for _ in 0..6 {
+        let arm = random.between(0.03, 0.06);
+        let piston = Piston {
+            arm,
+            rod: arm * random.between(2.5, 4.0),
+            wheel: random.between(0.01, 0.03),
+            push: random.between(300.0, 700.0),
+            speed: random.between(15.0, 30.0),
+        };
+        for method in ["auto", "dop853", "dopri5", "radau5"] {
+            for tolerance in [1e-6, 1e-9] {
+                let what = format!("{piston:?} by {method} at {tolerance:e}");
+                let start = piston.at(Piston::TURNING);
+                certified(&what, &run_by(&piston, (method, tolerance), start, 1.0));
+            }
+        }
     }
 }
 
