@@ -163,8 +163,9 @@ impl<T: Scalar> Decider<T> {
             Err(error) => Some(Error::from_evaluation(error, time, dynamics.mode(), d)),
         };
         if let Some(error) = refused
-            && !self.goes_on(dynamics, table, here)
+            && !self.goes_on(dynamics, table, here, false)
             && !self.decide_together(dynamics, table, here)
+            && !self.goes_on(dynamics, table, here, true)
         {
             return Err(error);
         }
@@ -403,17 +404,21 @@ impl<T: Scalar> Decider<T> {
     }
 
     /// Whether the present mode goes on, although guards of it were located as zero: a force is still clearly positive or only touches
-    /// zero, or a slip or branch rises from it. The root has an error larger than what decides, and from here it will be located anew.
+    /// zero, or a slip or branch rises from it, or a gap that has been touched only, where `touched` ones may be among them. The root has an error larger than what decides, and from here it will be located anew.
     /// If so, the mode is left in `self.best`.
     fn goes_on(
         &mut self,
         dynamics: &mut Dynamics<T>,
         table: &mut Table,
         here: SwitchContext<'_, T>,
+        touched: bool,
     ) -> bool {
         let located = &here.facts.located;
-        let can =
-            |guard: &Guard| guard.is_force() || matches!(guard, Guard::Slip(_) | Guard::Branch(_));
+        let can = |guard: &Guard| match guard {
+            Guard::Slip(_) | Guard::Branch(_) => true,
+            Guard::Gap(_) => touched,
+            guard => guard.is_force(),
+        };
         // A slip that rises again has been put below zero by what moved the state onto its constraints, however often that is seen.
         let for_ever = here.facts.again && located.iter().any(|guard| guard.is_force());
         if for_ever || !here.ends(here.present) || !located.iter().all(can) {

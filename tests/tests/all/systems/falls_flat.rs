@@ -3,7 +3,7 @@
 use super::state;
 use lagrange_core::integrate::Method;
 use lagrange_core::prelude::*;
-use lagrange_tests::{Random, agree};
+use lagrange_tests::{Random, agree, run_by};
 
 /// The middle of the lower side is at (x, y − lower).
 #[derive(Lagrangian, Clone, Debug)]
@@ -77,4 +77,64 @@ fn bounces(scene: &Crate, start: &State<f64>, fall: f64, method: Method) {
     }
     agree("x speed", trajectory.final_state().v[0], speed, 1e-9);
     assert_eq!(trajectory.final_state().q[2], 0.0);
+}
+
+/// A cupboard that stands with one side at a wall, tilted about its other lower corner, which is rough.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, p),
+    define(
+        c = cos(p),
+        s = sin(p),
+        left = [x - a*c + b*s, y - a*s - b*c],
+        lower = [x + a*c + b*s, y + a*s - b*c],
+        upper = x + a*c - b*s,
+    ),
+    kinetic = mass/2*(der(x)^2 + der(y)^2) + inertia/2*der(p)^2,
+    potential = mass*9.81*y,
+    contact(heel: left[1] >= 0, restitution = 1/2),
+    friction(grip on heel: slip = der(left[0]), static = 9/10),
+    contact(toe: lower[1] >= 0, restitution = 1/2),
+    contact(foot: lower[0] <= wall, restitution = 1/2),
+    contact(shoulder: upper <= wall, restitution = 1/2),
+    start(tilted: p = tilt, x = wall - 2*a + a*cos(tilt) - b*sin(tilt), y = a*sin(tilt) + b*cos(tilt)),
+)]
+struct Cupboard {
+    mass: f64,
+    inertia: f64,
+    a: f64,
+    b: f64,
+    wall: f64,
+    tilt: f64,
+}
+
+/// It falls back on its face, where its foot touches the wall without coming to it (the gap is 2a (1 − cos p)), until its bounces have died out.
+#[test]
+fn a_cupboard_falls_back_into_a_corner() {
+    let mut random = Random::new(54);
+    for _ in 0..12 {
+        let (a, b) = (random.between(0.3, 0.6), random.between(0.3, 0.6));
+        let mass = random.between(0.8, 2.0);
+        let scene = Cupboard {
+            mass,
+            inertia: mass * (a * a + b * b) / 3.0,
+            a,
+            b,
+            wall: 0.57,
+            tilt: random.between(0.01, 0.08),
+        };
+        for method in ["auto", "dop853"] {
+            for tolerance in [1e-6, 1e-9] {
+                let what = format!("{scene:?} by {method} at {tolerance:e}");
+                let start = scene.at(Cupboard::TILTED);
+                let motion = run_by(&scene, (method, tolerance), start, 2.0);
+                let end = motion.final_state();
+                agree(&what, end.q[2], 0.0, tolerance);
+                agree(&what, end.q[1], b, tolerance);
+                agree(&what, end.v[2], 0.0, tolerance);
+                assert!(motion.final_mode().closed(Cupboard::HEEL), "{what}");
+                assert!(motion.final_mode().closed(Cupboard::TOE), "{what}");
+            }
+        }
+    }
 }
