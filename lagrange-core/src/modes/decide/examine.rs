@@ -29,6 +29,9 @@ const RESIDUES: f64 = 10.0;
 /// A row that acts and whose rate grows beyond this share of what it is made of, over a step, does not follow from the others.
 const APART: f64 = 1e-6;
 
+/// and of what forces could make of it beyond this one: rounding of forces that cancel is left.
+const CANCELLED: f64 = 1e-12;
+
 /// A force that takes away no more than this of the momentum in a second may be what rounding of the state leaves of zero,
 const NOTHING: f64 = 1e-12;
 
@@ -205,9 +208,8 @@ impl<T: Scalar> Decider<T> {
             // A velocity that is zero is so only to rounding of the unit.
             let speeds = speeds
                 .map(|&(j, place)| size(place) * (largest(dynamics.velocity_series(j)) + AT_REST));
-            let whole =
-                speeds.sum::<f64>() + (self.sizes.acceleration(index, dynamics) + pushed) * h;
-            size(row.velocity) > APART * whole
+            let pushed = (self.sizes.acceleration(index, dynamics) + pushed) * h;
+            size(row.velocity) > APART * speeds.sum::<f64>() + CANCELLED * pushed
         });
         if apart {
             let guard = |&f: &usize| match d.frictions[f].components {
