@@ -7,9 +7,9 @@ use super::{ExprId, Node, Pool, Rational};
 const VISITED: u32 = 0;
 
 impl Pool {
-    /// The sums of an expression that stand under roots and in denominators: errors do harm where they come near to zero.
-    pub(super) fn sums_under_roots(&self, e: ExprId) -> Vec<ExprId> {
-        let mut sums = Vec::new();
+    /// What of an expression stands under roots and in denominators: errors do harm where that comes near to zero.
+    fn under_roots(&self, e: ExprId) -> Vec<ExprId> {
+        let mut bases = Vec::new();
         let mut seen = Flags::default();
         let mut stack = vec![e];
         while let Some(e) = stack.pop() {
@@ -21,21 +21,41 @@ impl Pool {
             if let Node::Product(factors) = node {
                 let harmed = factors.iter().filter(|&&(base, exponent)| {
                     let keeps = exponent.is_integer() && !exponent.is_negative();
-                    !keeps && matches!(self.node(base), Node::Sum { .. }) && self.varies(base)
+                    !keeps && self.varies(base)
                 });
-                sums.extend(harmed.map(|&(base, _)| base));
+                bases.extend(harmed.map(|&(base, _)| base));
             }
         }
-        sums
+        bases
     }
 
-    /// How many of them can lose their digits.
+    /// Of these the sums of squares that could be multiplied out.
+    pub(super) fn squares_under_roots(&self, e: ExprId) -> Vec<ExprId> {
+        let is_sum = |base: ExprId| matches!(self.node(base), Node::Sum { .. });
+        let has_square = |e: ExprId| match self.node(e) {
+            Node::Product(factors) => factors.iter().any(|&(base, _)| is_sum(base)),
+            _ => false,
+        };
+        let mut bases = self.under_roots(e);
+        bases.retain(|&base| {
+            let squares = match self.node(base) {
+                Node::Sum { terms, .. } => terms.iter().any(|&(term, _)| has_square(term)),
+                _ => has_square(base),
+            };
+            squares && self.is_sum_of_squares(base)
+        });
+        bases
+    }
+
+    /// How many sums under roots and in denominators can lose their digits.
     pub(super) fn losses(&self, form: ExprId) -> usize {
-        let mut sums = self.sums_under_roots(form);
-        sums.retain(|&sum| !self.is_sum_of_squares(sum));
-        sums.sort_unstable();
-        sums.dedup();
-        sums.len()
+        let mut bases = self.under_roots(form);
+        bases.retain(|&base| {
+            matches!(self.node(base), Node::Sum { .. }) && !self.is_sum_of_squares(base)
+        });
+        bases.sort_unstable();
+        bases.dedup();
+        bases.len()
     }
 
     /// Whether an expression is a sum of even powers, with coefficients that are positive.

@@ -19,14 +19,18 @@ impl Pool {
         let mut known = std::mem::take(&mut self.simplified);
         let limit = POOL_BUDGET.min(self.effort + CALL_BUDGET);
         let never = |_: &Pool, _| false;
-        let under_roots = self.sums_under_roots(e);
+        let kept = self.squares_under_roots(e);
         let simplified = self.ascend(e, &mut known, never, |pool, e, known| {
-            let under_root = under_roots.contains(&e);
+            let digits = match kept.is_empty() {
+                true => Digits::Any,
+                false if kept.contains(&e) => Digits::OfSquares,
+                false => Digits::OfRoots,
+            };
             let e = pool.with_children(e, known);
             if pool.effort > limit || pool.is_full() {
                 e
             } else {
-                pool.cheapest(e, under_root)
+                pool.cheapest(e, digits)
             }
         });
         let mut simple = simplified.unwrap_or(e);
@@ -42,8 +46,8 @@ impl Pool {
         simple
     }
 
-    /// The cheapest form of an expression whose sub-expressions are simplified, and whether it stands under a root.
-    fn cheapest(&mut self, e: ExprId, under_root: bool) -> ExprId {
+    /// The cheapest form of an expression whose sub-expressions are simplified.
+    fn cheapest(&mut self, e: ExprId, digits: Digits) -> ExprId {
         let worthwhile = match self.node(e) {
             Node::Sum { constant, terms } => terms.len() + usize::from(!constant.is_zero()) > 1,
             Node::Product(factors) => factors
@@ -54,11 +58,10 @@ impl Pool {
         if !worthwhile {
             return e;
         }
-        let keeps_squares = under_root && self.is_sum_of_squares(e);
         let mut choice = Choice {
             form: e,
-            keeps_squares,
-            cost: self.operations(&[e]) + DIGITS * self.losses(e),
+            digits,
+            cost: self.operations(&[e]) + self.cost_of_digits(e, digits),
             seen: vec![e],
         };
         for flat in self.flat_forms(e) {
@@ -102,11 +105,23 @@ impl Pool {
         choice.seen.push(form);
         let cost = self.operations(&[form]);
         self.effort += cost as u64;
-        let loses = choice.keeps_squares && !self.is_sum_of_squares(form);
-        let cost = cost + DIGITS * (self.losses(form) + usize::from(loses));
+        if cost > choice.cost {
+            return;
+        }
+        let cost = cost + self.cost_of_digits(form, choice.digits);
         if cost < choice.cost || (cost == choice.cost && self.needs_less_once(form, choice.form)) {
             (choice.form, choice.cost) = (form, cost);
         }
+    }
+
+    /// What the digits that a form loses count as.
+    fn cost_of_digits(&self, form: ExprId, digits: Digits) -> usize {
+        DIGITS
+            * match digits {
+                Digits::Any => 0,
+                Digits::OfRoots => self.losses(form),
+                Digits::OfSquares => self.losses(form) + usize::from(!self.is_sum_of_squares(form)),
+            }
     }
 
     /// Additions of a sum itself.
@@ -123,11 +138,21 @@ impl Pool {
     }
 }
 
+/// Which digits matter.
+#[derive(Clone, Copy)]
+enum Digits {
+    /// None does more than others.
+    Any,
+    /// Those of what stands under roots.
+    OfRoots,
+    /// Those of this expression as well, which stands there itself and is a sum of squares.
+    OfSquares,
+}
+
 /// The cheapest form so far.
 struct Choice {
     form: ExprId,
-    /// Whether what it is a form of is a sum of squares and has to keep its digits.
-    keeps_squares: bool,
+    digits: Digits,
     /// Operations, and digits lost.
     cost: usize,
     /// What has been looked at.
