@@ -114,7 +114,7 @@ impl<T: Scalar> Dynamics<T> {
         // Forces that act through multipliers press the columns apart: rows that depend on one another may have independent forces.
         let rank = match pattern.is_coupled() {
             false => Rank::Known(self.independent_rows()),
-            true => Rank::AtMost(acting.len()),
+            true => Rank::Numerical,
         };
         let freedom = least_norm(&columns, n, rank, &mut forces);
         let mut least = LeastForces {
@@ -170,7 +170,7 @@ impl<T: Scalar> Dynamics<T> {
         }
         let mut forces = vec![T::default(); count + 1];
         // A column that others replace is not determined.
-        !least_norm(&matrix, n, Rank::AtMost(count + 1), &mut forces).is_determined(count)
+        !least_norm(&matrix, n, Rank::Numerical, &mut forces).is_determined(count)
     }
 
     /// Whether forces that the rows leave open change the motion at the last [`Self::value`]: the friction of a body that slides on

@@ -50,8 +50,8 @@ impl Freedom {
 /// How many columns are independent.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Rank {
-    /// As many as there seem to be, up to this number.
-    AtMost(usize),
+    /// As many as there seem to be.
+    Numerical,
     /// This number, as whoever solved for the forces knows: more seem to be where constraints that depend on one another hold to a tolerance
     /// only, and fewer where next to nothing is left of a row beside others, as in a dead centre.
     Known(usize),
@@ -79,7 +79,7 @@ pub(crate) fn least_norm<T: Scalar>(
         })
         .collect();
     let limits = match rank {
-        Rank::AtMost(most) => (negligible::<T>(), most),
+        Rank::Numerical => (negligible::<T>(), wide),
         Rank::Known(rank) => (0.0, rank),
     };
     let mut lu = Lu::default();
@@ -135,7 +135,7 @@ mod tests {
         // Forces 0 and 1 along x, force 2 along y and force 3 none.
         let columns = [1.0, 0.0, 2.0, 0.0, 0.0, 3.0, 0.0, 0.0];
         let mut forces = [5.0, 0.0, 7.0, 1.0];
-        let freedom = least_norm(&columns, 2, Rank::AtMost(2), &mut forces);
+        let freedom = least_norm(&columns, 2, Rank::Numerical, &mut forces);
         // Least norm of λ₀ + 2 λ₁ = 5.
         for (found, expected) in forces.into_iter().zip([1.0_f64, 2.0, 7.0, 0.0]) {
             assert!((found - expected).abs() < 1e-14, "{forces:?}");
@@ -166,7 +166,7 @@ mod tests {
             1e-14, 1.0, 0.0, 3e-14, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0,
         ];
         let mut forces = [2.0_f64, 1.0, 0.0, 0.0];
-        let seen = least_norm(&columns, 3, Rank::AtMost(4), &mut forces.clone());
+        let seen = least_norm(&columns, 3, Rank::Numerical, &mut forces.clone());
         assert_eq!(seen.dimension(), 2);
         let freedom = least_norm(&columns, 3, Rank::Known(3), &mut forces);
         assert_eq!(freedom.dimension(), 1);
@@ -184,7 +184,7 @@ mod tests {
         let columns = [-0.4, 1.0, 0.0, flat, flat, 0.7, 0.0, 0.0, 1.0];
         let pull = [3.0_f64, 2.0, 5.0];
         let mut forces = pull;
-        let freedom = least_norm(&columns, 3, Rank::AtMost(3), &mut forces);
+        let freedom = least_norm(&columns, 3, Rank::Numerical, &mut forces);
         assert_eq!(freedom.dimension(), 0);
         assert!((0..3).all(|i| freedom.row(i).iter().all(|x| x.abs() < 1e-14)));
         let off = forces.iter().zip(pull).map(|(x, y)| (x - y).abs());
@@ -193,7 +193,7 @@ mod tests {
         let columns: [f64; 15] =
             core::array::from_fn(|i| columns[if i < 9 { i } else { i % 3 + 6 }]);
         let mut forces = [3.0_f64, 2.0, 5.0, 4.0, 0.0];
-        let freedom = least_norm(&columns, 3, Rank::AtMost(3), &mut forces);
+        let freedom = least_norm(&columns, 3, Rank::Numerical, &mut forces);
         assert_eq!(freedom.dimension(), 2);
         assert!(freedom.is_determined(0) && freedom.is_determined(1) && !freedom.is_determined(2));
         let off = forces.iter().zip([3.0, 2.0, 3.0, 3.0, 3.0]);

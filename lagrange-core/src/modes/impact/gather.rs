@@ -358,7 +358,7 @@ impl<T: Scalar> Gathering<T> {
                 .iter()
                 .map(|&row| out.impulses[row])
                 .collect();
-            least_norm(columns, n, Rank::AtMost(shared.len()), &mut shared);
+            least_norm(columns, n, Rank::Numerical, &mut shared);
             for (&row, impulse) in self.bilateral.iter().zip(shared) {
                 out.impulses[row] = impulse;
             }

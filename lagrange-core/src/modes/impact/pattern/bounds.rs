@@ -21,8 +21,7 @@ impl<T: Scalar> Pattern<T> {
             .map(|(i, row)| self.effect(c, i, row))
             .collect();
         let mut shared: Vec<T> = unknowns.map(|&row| self.impulses[row]).collect();
-        let count = Rank::AtMost(shared.len());
-        let freedom = least_norm(&columns, c.size, count, &mut shared);
+        let freedom = least_norm(&columns, c.size, Rank::Numerical, &mut shared);
         // Where nothing sticks, the combination without contacts that would pull does the same.
         if self.slides.contains(&Slide::Stick)
             && let Some(change) = self.change(c, phase, &shared, &freedom)
@@ -33,7 +32,7 @@ impl<T: Scalar> Pattern<T> {
             for (impulse, &more) in shared.iter_mut().zip(&change) {
                 *impulse -= more;
             }
-            least_norm(&columns, c.size, count, &mut shared);
+            least_norm(&columns, c.size, Rank::Numerical, &mut shared);
             for (impulse, more) in shared.iter_mut().zip(change) {
                 *impulse += more;
             }
