@@ -19,9 +19,9 @@ pub struct Heyoka {
 pub struct Run(u64);
 
 impl Heyoka {
-    /// Starts it with the Python that the environment variable `HEYOKA_PYTHON` names, one that can import heyoka.
+    /// Starts it with the Python that the environment variable `HEYOKA_PYTHON` names, one that can import heyoka. An empty name counts as none.
     pub fn start() -> Option<Heyoka> {
-        let python = std::env::var_os("HEYOKA_PYTHON")?;
+        let python = std::env::var_os("HEYOKA_PYTHON").filter(|python| !python.is_empty())?;
         let mut process = Command::new(&python)
             .arg(SCRIPT)
             .stdin(Stdio::piped())
