@@ -77,24 +77,24 @@ fn settle<T: Scalar>(
         outcome => return outcome,
     };
     let mut apart: Vec<usize> = status.above().collect();
-    let mut without = |apart: &[usize], state: &mut State<T>| {
-        state.clone_from(before);
+    let mut without = |apart: &[usize]| {
+        let mut moved = before.clone();
         status.apart.clear();
         status.apart.extend_from_slice(apart);
-        status.look(dynamics, t, state, tolerance);
-        project_onto(&status.mode, dynamics, t, state)
+        status.look(dynamics, t, &moved, tolerance);
+        project_onto(&status.mode, dynamics, t, &mut moved).map(|_| moved)
     };
-    if without(&apart, state).is_err() {
-        return Err(error);
-    }
+    let mut moved = without(&apart).map_err(|_| error)?;
     for contact in apart.clone() {
         let others = apart.iter().copied().filter(|&c| c != contact);
         let others: Vec<usize> = others.collect();
-        if without(&others, state).is_ok() {
-            apart = others;
+        if let Ok(onto) = without(&others) {
+            (apart, moved) = (others, onto);
         }
     }
-    without(&apart, state).map(|_| true)
+    status.apart = apart;
+    *state = moved;
+    Ok(true)
 }
 
 /// Moves positions that are below surfaces onto them. Velocities stay: a body may leave a surface, or arrive at it, where it begins.
