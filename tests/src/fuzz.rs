@@ -1,12 +1,12 @@
 //! Random runs, each held to its certificate; all of a run follows from its number.
 
-use crate::Random;
 use crate::families::Family;
 use crate::families::contacts::{Balls, Blocks, Chain, Rod};
 use crate::families::linkages::{Bead, FourBar, RoughPins};
 use crate::families::moving::{Feeder, Shaken};
 use crate::families::space::{Body, Charge, Puck};
 use crate::families::supports::{Beam, CartPole, Cranks};
+use crate::{METHODS, Random, TOLERANCES};
 use lagrange_core::certificate::Certificate;
 use lagrange_core::effects::Item;
 use lagrange_core::prelude::*;
@@ -17,18 +17,6 @@ use std::time::Instant;
 
 /// Longest time that a run may take, s.
 const PATIENCE: u64 = 20;
-
-/// Methods that choose their steps.
-pub const METHODS: [Method; 5] = [
-    Method::Auto,
-    Method::DormandPrince853,
-    Method::DormandPrince54,
-    Method::Verner98,
-    Method::Radau5,
-];
-
-/// Tolerances that runs are asked for.
-pub const TOLERANCES: [f64; 3] = [1e-6, 1e-9, 1e-12];
 
 /// What a run came to.
 #[derive(Clone, Debug, PartialEq)]

@@ -10,8 +10,39 @@ pub mod fuzz;
 pub mod modes;
 pub mod pairs;
 
+use core::fmt::Display;
 use lagrange_core::prelude::*;
 pub use lagrange_problems::reference::{agm, extrapolate, integral, root};
+
+/// Methods that choose their steps.
+pub const METHODS: [Method; 5] = [
+    Method::Auto,
+    Method::DormandPrince853,
+    Method::DormandPrince54,
+    Method::Verner98,
+    Method::Radau5,
+];
+
+/// The same with Taylor's method throughout, also where [`Method::Auto`] would change it for a stiff one.
+pub const SINGLE_METHODS: [Method; 5] = [
+    Method::Taylor,
+    Method::DormandPrince853,
+    Method::DormandPrince54,
+    Method::Verner98,
+    Method::Radau5,
+];
+
+/// Tolerances that runs are asked for.
+pub const TOLERANCES: [f64; 3] = [1e-6, 1e-9, 1e-12];
+
+/// Each method with each tolerance.
+pub fn methods_at<M: Copy, const N: usize>(
+    methods: impl IntoIterator<Item = M>,
+    tolerances: [f64; N],
+) -> impl Iterator<Item = (M, f64)> {
+    let methods = methods.into_iter();
+    methods.flat_map(move |method| tolerances.map(|tolerance| (method, tolerance)))
+}
 
 /// Seeded random numbers (splitmix64, Steele, Lea & Flood 2014).
 #[derive(Clone, Debug)]
@@ -56,7 +87,7 @@ pub fn error(a: f64, b: f64) -> f64 {
 
 /// Asserts that two numbers agree to `tolerance`, relative to the larger of the second and 1.
 #[track_caller]
-pub fn agree(what: &str, a: f64, b: f64, tolerance: f64) {
+pub fn agree(what: impl Display, a: f64, b: f64, tolerance: f64) {
     assert!(
         error(a, b) <= tolerance,
         "{what}: {a} instead of {b}, error {:.1e}",
@@ -66,12 +97,12 @@ pub fn agree(what: &str, a: f64, b: f64, tolerance: f64) {
 
 /// [`agree`] for lists, relative to the largest of 1 and the second list.
 #[track_caller]
-pub fn all_agree(what: &str, a: &[f64], b: &[f64], tolerance: f64) {
+pub fn all_agree(what: impl Display, a: &[f64], b: &[f64], tolerance: f64) {
     assert_eq!(a.len(), b.len(), "{what}: length");
     let size = b.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
     for (i, (a, b)) in a.iter().zip(b).enumerate() {
         agree(
-            &format!("{what}[{i}] over {size}"),
+            format!("{what}[{i}] over {size}"),
             a / size,
             b / size,
             tolerance,
@@ -89,16 +120,16 @@ pub fn run<S: System<Scalar = f64>>(
     run_by(scene, ("taylor", 1e-12), start, until)
 }
 
-/// Runs a scene from a state by a method at a tolerance.
+/// Runs a scene from a state by a method, or that of a name, at a tolerance.
 #[track_caller]
 pub fn run_by<S: System<Scalar = f64>>(
     scene: &S,
-    (method, tolerance): (&str, f64),
+    (method, tolerance): (impl Display, f64),
     start: State<f64>,
     until: f64,
 ) -> Trajectory<S::Scalar> {
     let simulation = Simulation::new(scene)
-        .method(method.parse().expect("a method"))
+        .method(method.to_string().parse().expect("a method"))
         .tolerance(tolerance);
     match simulation.run(start, 0.0..until) {
         Ok(trajectory) => trajectory,
@@ -108,7 +139,7 @@ pub fn run_by<S: System<Scalar = f64>>(
 
 /// Asserts that a recorded run obeys its declaration, by its certificate.
 #[track_caller]
-pub fn certified(what: impl core::fmt::Display, trajectory: &Trajectory) {
+pub fn certified(what: impl Display, trajectory: &Trajectory) {
     let certificate = trajectory.verify(1).expect("a recorded run");
     let name = trajectory.description().name;
     assert!(certificate.holds(), "{name} {what}: {certificate}");

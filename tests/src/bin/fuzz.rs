@@ -9,7 +9,8 @@
 
 use lagrange_problems::catalogue::scenes;
 use lagrange_tests::exactness::{Estimated, Exact};
-use lagrange_tests::fuzz::{self, METHODS, Report, TOLERANCES, Verdict};
+use lagrange_tests::fuzz::{self, Report, Verdict};
+use lagrange_tests::{METHODS, TOLERANCES};
 use std::process::ExitCode;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};

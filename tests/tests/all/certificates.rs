@@ -3,7 +3,7 @@
 use lagrange_core::prelude::*;
 use lagrange_problems::catalogue::scenes;
 use lagrange_tests::fuzz::{self, Verdict};
-use lagrange_tests::{Random, certified, run, run_by, words};
+use lagrange_tests::{METHODS, Random, certified, methods_at, run, run_by, words};
 
 /// Random runs that fall short of their bounds, each for a reason that is to be found.
 const SHORT: [u64; 0] = [];
@@ -22,7 +22,7 @@ fn scenes_of_the_catalogue() {
         if ["chain", "net", "kepler"].contains(&scene.name()) {
             continue;
         }
-        let method = fuzz::METHODS[k % 4];
+        let method = METHODS[k % 4];
         for (method, tolerance) in [(Method::Taylor, 1e-9), (method, 1e-6)] {
             let report = fuzz::scene(scene, method, tolerance);
             if let Verdict::Short(reason) = report.verdict {
@@ -264,12 +264,11 @@ fn what_vanishes_together_may_be_on_either_side_in_between() {
             push: random.between(300.0, 700.0),
             speed: random.between(15.0, 30.0),
         };
-        for method in ["auto", "dop853", "dopri5", "radau5"] {
-            for tolerance in [1e-6, 1e-9] {
-                let what = format!("{piston:?} by {method} at {tolerance:e}");
-                let start = piston.at(Piston::TURNING);
-                certified(&what, &run_by(&piston, (method, tolerance), start, 1.0));
-            }
+        for (method, tolerance) in methods_at(["auto", "dop853", "dopri5", "radau5"], [1e-6, 1e-9])
+        {
+            let what = format!("{piston:?} by {method} at {tolerance:e}");
+            let start = piston.at(Piston::TURNING);
+            certified(&what, &run_by(&piston, (method, tolerance), start, 1.0));
         }
     }
 }

@@ -4,7 +4,7 @@ use lagrange_core::error::{Level, NotFinite};
 use lagrange_core::prelude::*;
 use lagrange_problems::scenes::hard::BouncingBall;
 use lagrange_problems::scenes::{Kepler, MassOnShell, MassOnWheel, RollingSphere};
-use lagrange_tests::agree;
+use lagrange_tests::{METHODS, TOLERANCES, agree};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
@@ -875,7 +875,7 @@ fn a_force_that_grows_without_bound_names_its_contact() {
             speed: 4.576885209108196,
             turn: 2.742583605913481,
         };
-        for tolerance in [1e-6, 1e-9, 1e-12] {
+        for tolerance in TOLERANCES {
             let simulation = Simulation::new(&rod).tolerance(tolerance);
             let failure = simulation
                 .run(rod.at(SlidingRod::SLIDING), 0.0..1.0)
@@ -953,7 +953,7 @@ fn friction_does_not_push() {
             },
         ),
     ] {
-        for method in lagrange_tests::fuzz::METHODS {
+        for method in METHODS {
             let simulation = Simulation::new(&scene).method(method);
             let failure = simulation.run(scene.at(Lightened::GO), 0.0..3.0);
             let failure = failure.expect_err("it would push");
@@ -969,7 +969,7 @@ fn friction_does_not_push() {
             assert!(number == what || number == "static friction", "{number}");
             // All three are nothing where it is 0.4 m on.
             agree(
-                &method.to_string(),
+                method.to_string(),
                 failure.trajectory.final_state().q[0],
                 0.4,
                 1e-5,

@@ -187,7 +187,7 @@ pub fn check_derivatives<S: Derived<Scalar = f64> + Default>(source: &str) {
             for (i, dual) in duals.into_iter().flatten().enumerate() {
                 let slope = (up[i] - down[i]) / (2.0 * h);
                 agree(
-                    &format!("{} ∂y[{i}]/∂x[{input}]", d.name),
+                    format!("{} ∂y[{i}]/∂x[{input}]", d.name),
                     dual.derivative[0],
                     slope,
                     1e-7,

@@ -33,7 +33,7 @@ fn check<S: Derived<Scalar = f64> + Default>(until: f64) {
         }
         let states = trajectory.final_state().q.iter();
         for (q, exact) in states.zip(&reference.final_state().q) {
-            agree(&format!("{method}, final state"), *q, *exact, 1e-8);
+            agree(format!("{method}, final state"), *q, *exact, 1e-8);
         }
     }
 }

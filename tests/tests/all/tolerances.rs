@@ -79,7 +79,7 @@ fn a_coordinate_of_no_interest_does_not_shorten_the_steps() {
         let own = own.run(start.clone(), 0.0..10.0).expect("runs");
         assert!(own.work().steps * 3 < all.work().steps * 2, "{method}");
         let x = own.final_state().q(Oscillators::X);
-        agree(&method.to_string(), x, 10.0_f64.cos(), 1e-8);
+        agree(method.to_string(), x, 10.0_f64.cos(), 1e-8);
         certified("", &own);
     }
 }

@@ -172,12 +172,12 @@ fn slipping_agrees_with_its_reduced_equation_integrated_apart() {
         assert_eq!(words(&trajectory)[..2], ["grip slips", "rim lost"]);
         let lost = event(&trajectory, "rim", "lost");
         let what = |name: &str| format!("{name} for {scene:?}");
-        agree(&what("θ leave"), lost.state.q[3], leave, 1e-10);
-        agree(&what("t leave"), lost.time, time, 1e-10);
-        agree(&what("ω leave"), lost.state.v[3], u.sqrt(), 1e-10);
-        agree(&what("ẋ leave"), lost.state.v[0], speed, 1e-10);
-        agree(&what("x leave"), lost.state.q[0], place, 1e-10);
-        agree(&what("φ leave"), lost.state.q[1], place / radius, 1e-10);
+        agree(what("θ leave"), lost.state.q[3], leave, 1e-10);
+        agree(what("t leave"), lost.time, time, 1e-10);
+        agree(what("ω leave"), lost.state.v[3], u.sqrt(), 1e-10);
+        agree(what("ẋ leave"), lost.state.v[0], speed, 1e-10);
+        agree(what("x leave"), lost.state.q[0], place, 1e-10);
+        agree(what("φ leave"), lost.state.q[1], place / radius, 1e-10);
         assert!(closure(&trajectory) < 1e-10);
         // After that the wheel rolls on as it is.
         let now = trajectory.sampler().at(lost.time + 1e-2).expect("flight");

@@ -99,7 +99,7 @@ fn check<S: Derived<Scalar = f64> + Default>(number: u64) {
             if let (Some(emitted), Some(interpreted)) =
                 (by(Equations::Emitted), by(Equations::Interpreted))
             {
-                all_agree(&format!("{number}"), &emitted, &interpreted, 1e-9);
+                all_agree(format!("{number}"), &emitted, &interpreted, 1e-9);
                 compared += 1;
             }
         }

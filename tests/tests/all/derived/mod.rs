@@ -59,7 +59,7 @@ fn check_inertia<S: Derived<Scalar = f64>>(
     let size = mass.iter().flatten().fold(1.0_f64, |m, x| m.max(x.abs()));
     for (i, (found, mass)) in found.mass.iter().zip(mass).enumerate() {
         for (j, (found, mass)) in found.iter().zip(mass).enumerate() {
-            agree(&format!("M[{i}][{j}]"), found / size, mass / size, ROUNDING);
+            agree(format!("M[{i}][{j}]"), found / size, mass / size, ROUNDING);
         }
     }
     all_agree("forcing", &found.forcing, forcing, ROUNDING);

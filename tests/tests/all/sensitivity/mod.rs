@@ -66,7 +66,7 @@ fn compare<const N: usize>(
     let at = plain(p);
     assert_eq!(at.len(), dual.len());
     for (i, (a, b)) in at.iter().zip(dual).enumerate() {
-        agree(&format!("value {i}"), b.value, *a, 1e-9);
+        agree(format!("value {i}"), b.value, *a, 1e-9);
     }
     for k in 0..N {
         let shifted = |by: f64| {
@@ -78,7 +78,7 @@ fn compare<const N: usize>(
         for i in 0..at.len() {
             let slope = (a[i] - 8.0 * b[i] + 8.0 * c[i] - d[i]) / (12.0 * h * p[k]);
             agree(
-                &format!("d out {i} / d parameter {k}"),
+                format!("d out {i} / d parameter {k}"),
                 dual[i].derivative[k],
                 slope,
                 tolerance,

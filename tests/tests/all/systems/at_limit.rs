@@ -2,7 +2,9 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{Random, agm, agree, certified, run_by};
+use lagrange_tests::{
+    Random, SINGLE_METHODS, TOLERANCES, agm, agree, certified, methods_at, run_by,
+};
 
 /// A block on a spring on a rough floor, under a load.
 #[derive(Lagrangian, Clone, Debug)]
@@ -25,27 +27,28 @@ struct Held {
 /// Whether it is held or creeps, within rounding it stays where it is, by any method and at any tolerance.
 #[test]
 fn a_block_at_the_edge_of_its_dead_band_stays() {
-    for method in [
-        "taylor", "dop853", "dopri5", "verner98", "radau5", "rk4:0.01",
-    ] {
-        for tolerance in [1e-6, 1e-9, 1e-12] {
-            let mut random = Random::new(9);
-            for _ in 0..50 {
-                let scene = Held {
-                    mass: random.between(0.2, 3.0),
-                    gravity: random.between(1.0, 20.0),
-                    stiffness: random.between(1.0, 50.0),
-                    mu: random.between(0.1, 0.9),
-                    load: random.between(-5.0, 5.0),
-                };
-                let most = random.sign() * scene.mu * scene.mass * scene.gravity;
-                let most = most * (1.0 + random.between(-1e-14, 1e-14));
-                let x = (scene.load + most) / scene.stiffness;
-                let start = state(&[x, 0.0], &[0.0, 0.0]);
-                let motion = run_by(&scene, (method, tolerance), start, 1.0);
-                let moved = (motion.final_state().q[0] - x).abs();
-                assert!(moved < 1e-11, "{method} {tolerance:e}: {moved}");
-            }
+    for (method, tolerance) in methods_at(
+        [
+            "taylor", "dop853", "dopri5", "verner98", "radau5", "rk4:0.01",
+        ],
+        TOLERANCES,
+    ) {
+        let mut random = Random::new(9);
+        for _ in 0..50 {
+            let scene = Held {
+                mass: random.between(0.2, 3.0),
+                gravity: random.between(1.0, 20.0),
+                stiffness: random.between(1.0, 50.0),
+                mu: random.between(0.1, 0.9),
+                load: random.between(-5.0, 5.0),
+            };
+            let most = random.sign() * scene.mu * scene.mass * scene.gravity;
+            let most = most * (1.0 + random.between(-1e-14, 1e-14));
+            let x = (scene.load + most) / scene.stiffness;
+            let start = state(&[x, 0.0], &[0.0, 0.0]);
+            let motion = run_by(&scene, (method, tolerance), start, 1.0);
+            let moved = (motion.final_state().q[0] - x).abs();
+            assert!(moved < 1e-11, "{method} {tolerance:e}: {moved}");
         }
     }
 }
@@ -77,17 +80,15 @@ fn a_bead_comes_back_to_where_it_presses_with_nothing() {
     };
     let period =
         core::f64::consts::TAU * (rim.radius / rim.gravity).sqrt() / agm(1.0, 0.5_f64.sqrt());
-    for method in ["taylor", "dop853", "radau5", "verner98", "dopri5"] {
-        for tolerance in [1e-6, 1e-9, 1e-12] {
-            let start = state(&[rim.radius, 0.0, 0.0], &[0.0; 3]);
-            let motion = run_by(&rim, (method, tolerance), start, 2.0 * period);
-            let end = motion.final_state();
-            let within = 200.0 * tolerance;
-            let what = format!("{method} {tolerance:.0e}");
-            agree(&what, end.q[0], rim.radius, within);
-            agree(&what, end.q[1], 0.0, within);
-            agree(&what, end.v[1], 0.0, within);
-            certified(&what, &motion);
-        }
+    for (method, tolerance) in methods_at(SINGLE_METHODS, TOLERANCES) {
+        let start = state(&[rim.radius, 0.0, 0.0], &[0.0; 3]);
+        let motion = run_by(&rim, (method, tolerance), start, 2.0 * period);
+        let end = motion.final_state();
+        let within = 200.0 * tolerance;
+        let what = format!("{method} {tolerance:.0e}");
+        agree(&what, end.q[0], rim.radius, within);
+        agree(&what, end.q[1], 0.0, within);
+        agree(&what, end.v[1], 0.0, within);
+        certified(&what, &motion);
     }
 }

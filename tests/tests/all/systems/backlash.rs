@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, event, run_by};
+use lagrange_tests::{TOLERANCES, agree, event, methods_at, run_by};
 
 /// One gear is driven; the other is taken along once the play is used up.
 #[derive(Lagrangian, Clone, Debug)]
@@ -39,7 +39,7 @@ fn gears_that_have_met_turn_as_one() {
         // While the torque is positive the teeth stay together.
         let speed = gears.torque / (rate * whole) * (rate * until).sin();
         let turned = gears.torque / (rate * rate * whole) * (1.0 - (rate * until).cos());
-        for by in METHODS.iter().flat_map(|m| [1e-6, 1e-9].map(|x| (*m, x))) {
+        for by in methods_at(METHODS, [1e-6, 1e-9]) {
             let what = format!("e = {e}, {by:?}");
             let start = state(&[begin, begin], &[0.0, 0.0]);
             let trajectory = run_by(&gears, by, start, until);
@@ -92,7 +92,7 @@ fn bounces_below_the_rounding_of_the_gap_accumulate() {
         drag: 1.0,
         e: 0.4,
     };
-    for tolerance in [1e-6, 1e-9, 1e-12] {
+    for tolerance in TOLERANCES {
         let runs = METHODS.map(|method| {
             let start = state(&[104.05, 100.0], &[3.0, 3.0]);
             let run = run_by(&train, (method, tolerance), start, 20.0);

@@ -2,8 +2,9 @@
 
 use super::{PI, state};
 use lagrange_core::prelude::*;
-use lagrange_tests::fuzz::METHODS;
-use lagrange_tests::{agree, closure, event, root, run, run_by, runge_kutta, words};
+use lagrange_tests::{
+    METHODS, agree, closure, event, methods_at, root, run, run_by, runge_kutta, words,
+};
 
 /// A body on a pin of some radius, which may be struck by a ball.
 #[derive(Lagrangian, Clone, Debug)]
@@ -62,7 +63,7 @@ fn an_unbalanced_disc_slows_down() {
     let k = moment / (inertia * inertia - moment * moment).sqrt();
     for method in METHODS {
         for rate in [7.0_f64, -3.0] {
-            let by = (&*method.to_string(), 1e-9);
+            let by = (method, 1e-9);
             let trajectory = run_by(&disc, by, at(&disc, 0.3, rate), 5.0);
             let end = trajectory.final_state();
             let slower = 1.0 + k * rate.abs() * 5.0;
@@ -146,12 +147,7 @@ fn a_rotor_starts_without_load() {
     let inertia = rotor.inertia + rotor.mass * rotor.arm * rotor.arm;
     let moment = rotor.mu * rotor.radius * rotor.mass * rotor.arm;
     for method in METHODS {
-        let trajectory = run_by(
-            &rotor,
-            (&*method.to_string(), 1e-9),
-            at(&rotor, 0.0, 0.0),
-            3.0,
-        );
+        let trajectory = run_by(&rotor, (method, 1e-9), at(&rotor, 0.0, 0.0), 3.0);
         // dt = dω / α(ω), where J α = τ − m l μ r √(α² + ω⁴).
         let alpha = |w: f64| root(|a| inertia * a - 1.0 + moment * a.hypot(w * w), 0.0, 10.0);
         let rate = trajectory.final_state().v[2];
@@ -296,20 +292,18 @@ fn loads_that_vanish_or_nearly() {
                     .sum::<f64>()
             })
             .sum();
-        for method in METHODS {
-            for tolerance in [1e-6, 1e-9] {
-                let start = state(&[0.0; 3], &[10.0, 0.0, 0.0]);
-                let trajectory = run_by(&sleeve, (&*method.to_string(), tolerance), start, 3.0);
-                let end = trajectory.final_state().v[0];
-                let most = 30.0 * tolerance + 1e-10;
-                agree(
-                    &format!("{method} {tolerance:e} {down:e}"),
-                    end,
-                    10.0 - 0.3 * lost,
-                    most,
-                );
-                assert!(words(&trajectory).is_empty());
-            }
+        for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-9]) {
+            let start = state(&[0.0; 3], &[10.0, 0.0, 0.0]);
+            let trajectory = run_by(&sleeve, (method, tolerance), start, 3.0);
+            let end = trajectory.final_state().v[0];
+            let most = 30.0 * tolerance + 1e-10;
+            agree(
+                format!("{method} {tolerance:e} {down:e}"),
+                end,
+                10.0 - 0.3 * lost,
+                most,
+            );
+            assert!(words(&trajectory).is_empty());
         }
     }
 }
@@ -477,7 +471,7 @@ fn derivatives_go_through_bearings() {
         for (i, found) in events.chain(end).enumerate() {
             let [a, b, c, d] = [0, 1, 2, 3].map(|side: usize| sides[side][i]);
             let difference = (a - 8.0 * b + 8.0 * c - d) / (12.0 * h);
-            agree(&format!("{k}, {i}"), found, difference, 2e-5);
+            agree(format!("{k}, {i}"), found, difference, 2e-5);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, event, root, run_by, words};
+use lagrange_tests::{TOLERANCES, agree, event, methods_at, root, run_by, words};
 
 const METHODS: [&str; 7] = [
     "taylor",
@@ -51,25 +51,23 @@ fn all_methods_find_the_first_crossing_of_a_guard_that_oscillates() {
         .expect("it comes down");
     let falls = root(gap, first, first + 1e-4);
     let crests = (70.0 * 3.0 * falls / core::f64::consts::PI + 0.5) as usize;
-    for method in METHODS {
-        for tolerance in [1e-6, 1e-9, 1e-12] {
-            let start = state(&[0.0, 1.0], &[3.0, 0.0]);
-            let motion = run_by(&GROUND, (method, tolerance), start, falls + 1e-3);
-            let asked = format!("{method} {tolerance:e}");
-            let impact = event(&motion, "ground", "impact");
-            agree(&asked, impact.time, falls, tolerance);
-            let [x, y] = impact.state.q[..] else {
-                panic!("two coordinates");
-            };
-            agree(&asked, y, 0.04 * (70.0 * x).sin(), tolerance);
-            let events = motion.events().iter();
-            let passed = events.filter(|e| e.kind.word() == "mark" && e.time < falls);
-            let marks: Vec<f64> = passed.map(|e| e.time).collect();
-            assert_eq!(marks.len(), crests, "{asked}: {:?}", words(&motion));
-            for (k, time) in marks.iter().enumerate() {
-                let crest = (k as f64 + 0.5) * core::f64::consts::PI / 210.0;
-                agree(&asked, *time, crest, tolerance);
-            }
+    for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+        let start = state(&[0.0, 1.0], &[3.0, 0.0]);
+        let motion = run_by(&GROUND, (method, tolerance), start, falls + 1e-3);
+        let asked = format!("{method} {tolerance:e}");
+        let impact = event(&motion, "ground", "impact");
+        agree(&asked, impact.time, falls, tolerance);
+        let [x, y] = impact.state.q[..] else {
+            panic!("two coordinates");
+        };
+        agree(&asked, y, 0.04 * (70.0 * x).sin(), tolerance);
+        let events = motion.events().iter();
+        let passed = events.filter(|e| e.kind.word() == "mark" && e.time < falls);
+        let marks: Vec<f64> = passed.map(|e| e.time).collect();
+        assert_eq!(marks.len(), crests, "{asked}: {:?}", words(&motion));
+        for (k, time) in marks.iter().enumerate() {
+            let crest = (k as f64 + 0.5) * core::f64::consts::PI / 210.0;
+            agree(&asked, *time, crest, tolerance);
         }
     }
 }
@@ -83,17 +81,15 @@ fn all_methods_stop_where_the_condition_becomes_true() {
     };
     let distance = |t: f64| (3.0 * t).hypot(2.0 + 2.0 * t - 5.0 * t * t) - 2.25;
     let reaches = root(distance, 0.0, 0.25);
-    for method in METHODS {
-        for tolerance in [1e-6, 1e-9, 1e-12] {
-            let start = state(&[0.0, 1.0], &[3.0, 2.0]);
-            let motion = run_by(&high, (method, tolerance), start, 5.0);
-            agree(
-                &format!("{method} {tolerance:e}"),
-                event(&motion, "far", "stop").time,
-                reaches,
-                tolerance,
-            );
-        }
+    for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+        let start = state(&[0.0, 1.0], &[3.0, 2.0]);
+        let motion = run_by(&high, (method, tolerance), start, 5.0);
+        agree(
+            format!("{method} {tolerance:e}"),
+            event(&motion, "far", "stop").time,
+            reaches,
+            tolerance,
+        );
     }
 }
 
@@ -112,15 +108,13 @@ struct Beads {
 #[test]
 fn all_methods_pass_kinks_and_cuts() {
     let scene = Beads { unused: 0.0 };
-    for method in METHODS {
-        for tolerance in [1e-6, 1e-12] {
-            let start = state(&[0.3, 0.2], &[-0.8, 5.0]);
-            let motion = run_by(&scene, (method, tolerance), start, 4.5);
-            let asked = format!("{method} {tolerance:e}");
-            assert_eq!(words(&motion), ["knot impact", "knot impact"], "{asked}");
-            agree(&asked, motion.events()[0].time, 1.3 / 0.8, tolerance);
-            agree(&asked, motion.events()[1].time, 3.3 / 0.8, tolerance);
-        }
+    for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-12]) {
+        let start = state(&[0.3, 0.2], &[-0.8, 5.0]);
+        let motion = run_by(&scene, (method, tolerance), start, 4.5);
+        let asked = format!("{method} {tolerance:e}");
+        assert_eq!(words(&motion), ["knot impact", "knot impact"], "{asked}");
+        agree(&asked, motion.events()[0].time, 1.3 / 0.8, tolerance);
+        agree(&asked, motion.events()[1].time, 3.3 / 0.8, tolerance);
     }
 }
 
@@ -140,7 +134,7 @@ struct Passing {
 #[test]
 fn what_passes_close_by_does_not_strike() {
     let scene = |sight| Passing { radius: 1.0, sight };
-    for (method, tolerance) in METHODS.into_iter().flat_map(|m| [(m, 1e-9), (m, 1e-12)]) {
+    for (method, tolerance) in methods_at(METHODS, [1e-9, 1e-12]) {
         let asked = format!("{method} {tolerance:e}");
         for distance in [1e-5, 1e-7, 1e-8] {
             let start = state(&[-1.0, 1.0 + distance], &[1.0, 0.0]);

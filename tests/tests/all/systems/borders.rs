@@ -2,8 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::fuzz::{METHODS, TOLERANCES};
-use lagrange_tests::{agree, words};
+use lagrange_tests::{METHODS, TOLERANCES, agree, methods_at, words};
 
 const G: f64 = 9.81;
 
@@ -41,10 +40,8 @@ fn certified(
 
 /// Every method at every tolerance.
 fn everyhow(test: impl Fn(Method, f64)) {
-    for method in METHODS {
-        for tolerance in TOLERANCES {
-            test(method, tolerance);
-        }
+    for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+        test(method, tolerance);
     }
 }
 
@@ -283,7 +280,7 @@ fn a_push_that_ends_where_it_has_pushed_leaves_no_mode() {
             panic!("{method:?}: {error}");
         };
         assert_eq!(item, "wall", "{method:?}");
-        agree(&format!("{method:?}"), time, arrives, 1e-9);
+        agree(format!("{method:?}"), time, arrives, 1e-9);
         assert!(
             error.to_string().contains("jumps at the surface"),
             "{error}"

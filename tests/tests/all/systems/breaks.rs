@@ -4,10 +4,9 @@
 use super::state;
 use lagrange_core::error::NotFinite;
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, event, words};
+use lagrange_tests::{TOLERANCES, agree, event, words};
 
 const G: f64 = 9.81;
-const TOLERANCES: [f64; 3] = [1e-6, 1e-9, 1e-12];
 
 /// A bob on a string, above or below its pivot.
 #[derive(Lagrangian, Clone, Debug)]

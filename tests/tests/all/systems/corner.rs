@@ -1,8 +1,9 @@
 //! Forces that are not determined where directions of friction turn: guards of such forces are those of one instant.
 
 use lagrange_core::prelude::*;
-use lagrange_tests::fuzz::METHODS;
-use lagrange_tests::{Random, agree, certified, event, run_by, times, words};
+use lagrange_tests::{
+    METHODS, Random, TOLERANCES, agree, certified, event, methods_at, run_by, times, words,
+};
 
 /// A ball rolls along the corner of a tub's wall and floor.
 #[derive(Lagrangian, Clone, Debug)]
@@ -61,8 +62,8 @@ fn a_ball_rolls_in_a_corner_where_some_forces_hold_it() {
             s.abs() <= wall_mu * wall && (s - turn).abs() <= floor_mu * floor
         };
         assert!((-2000..=2000).any(|k| holds(f64::from(k) * 0.005)));
-        for method in METHODS.map(|method| method.to_string()) {
-            let motion = run_by(&tub, (&method, 1e-9), tub.at(Tub::ROLL), 0.5);
+        for method in METHODS {
+            let motion = run_by(&tub, (method, 1e-9), tub.at(Tub::ROLL), 0.5);
             assert!(words(&motion).is_empty(), "{method}: {:?}", words(&motion));
             let angle = speed / path * 0.5;
             let State { q, .. } = motion.final_state();
@@ -87,15 +88,15 @@ fn a_ball_begins_to_slip_at_wall_and_floor_at_once() {
     let push = tub.speed * tub.speed / (tub.tub - tub.radius);
     let wall = (push + tub.floor_mu * tub.gravity) / (1.0 + tub.wall_mu * tub.floor_mu);
     let floor = tub.gravity - tub.wall_mu * wall;
-    for method in METHODS.map(|method| method.to_string()) {
-        let motion = run_by(&tub, (&method, 1e-9), tub.at(Tub::ROLL), 0.02);
+    for method in METHODS {
+        let motion = run_by(&tub, (method, 1e-9), tub.at(Tub::ROLL), 0.02);
         let slips = motion.events().iter();
         let slips = slips.filter(|e| e.time == 0.0 && e.kind == EventKind::Slips);
         assert_eq!(slips.count(), 2, "{method}: {:?}", words(&motion));
         let now = motion.sampler().at(0.0).expect("recorded");
         agree("wall", now.force(Tub::WALL), tub.mass * wall, 1e-6);
         agree("floor", now.force(Tub::FLOOR), tub.mass * floor, 1e-6);
-        certified(&method, &motion);
+        certified(method, &motion);
     }
 }
 
@@ -154,7 +155,7 @@ fn a_table_falls_back_on_both_of_its_feet() {
                 let first = struck.next().expect("an impact");
                 first.impulse(Table::STAND[k])
             };
-            agree(&format!("{what:?}"), impulse(0), impulse(2), 1e-9);
+            agree(format!("{what:?}"), impulse(0), impulse(2), 1e-9);
             let end = motion.sampler().at(1.0).expect("recorded");
             agree("turned", end.observe(Table::TURNED), 0.0, 1e-9);
             certified(format!("{what:?}"), &motion);
@@ -202,22 +203,20 @@ fn a_block_that_lands_in_a_corner_that_moves_sticks_there() {
             reach,
             rate,
         };
-        for method in METHODS.map(|method| method.to_string()) {
-            for tolerance in [1e-6, 1e-9] {
-                let motion = run_by(&lift, (&method, tolerance), lift.at(Lift::FALLS), 1.5);
-                let asked = format!("{method} {tolerance:e}");
-                assert_eq!(words(&motion), ["floor impact", "floor closed"], "{asked}");
-                let now = motion.sampler().at(1.5).expect("recorded");
-                let acceleration = -reach * rate * rate * (rate * 1.5).sin();
-                let carried = now.force(Lift::WALL) + now.force(Lift::RUB);
-                agree(&asked, carried, press + acceleration, 100.0 * tolerance);
-                agree(
-                    &asked,
-                    now.state.q[0],
-                    reach * (rate * 1.5).sin(),
-                    10.0 * tolerance,
-                );
-            }
+        for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-9]) {
+            let motion = run_by(&lift, (method, tolerance), lift.at(Lift::FALLS), 1.5);
+            let asked = format!("{method} {tolerance:e}");
+            assert_eq!(words(&motion), ["floor impact", "floor closed"], "{asked}");
+            let now = motion.sampler().at(1.5).expect("recorded");
+            let acceleration = -reach * rate * rate * (rate * 1.5).sin();
+            let carried = now.force(Lift::WALL) + now.force(Lift::RUB);
+            agree(&asked, carried, press + acceleration, 100.0 * tolerance);
+            agree(
+                &asked,
+                now.state.q[0],
+                reach * (rate * 1.5).sin(),
+                10.0 * tolerance,
+            );
         }
     }
 }
@@ -260,26 +259,24 @@ fn a_cube_that_a_wall_has_pushed_slides_on() {
             ahead: [1.0, 1.0, -1.0, -1.0],
             aside: [1.0, -1.0, 1.0, -1.0],
         };
-        for method in ["taylor", "dop853", "radau5"] {
-            for tolerance in [1e-6, 1e-9, 1e-12] {
-                let asked = format!("{half} {method} {tolerance:e}");
-                let motion = run_by(&cube, (method, tolerance), cube.at(Cube::PUSHED), 1.2);
-                let left = core::f64::consts::PI / rate;
-                for k in 0..4 {
-                    let lost = times(&motion, &format!("wall[{k}]"), "lost");
-                    assert_eq!(lost.len(), 1, "{asked}: {:?}", words(&motion));
-                    agree(&asked, lost[0], left, 20.0 * tolerance);
-                }
-                let State { q, .. } = motion.final_state();
-                agree(
-                    &asked,
-                    q[0],
-                    half + reach * rate * (1.2 - left),
-                    20.0 * tolerance,
-                );
-                agree(&asked, q[2], half, 20.0 * tolerance);
-                certified(asked, &motion);
+        for (method, tolerance) in methods_at(["taylor", "dop853", "radau5"], TOLERANCES) {
+            let asked = format!("{half} {method} {tolerance:e}");
+            let motion = run_by(&cube, (method, tolerance), cube.at(Cube::PUSHED), 1.2);
+            let left = core::f64::consts::PI / rate;
+            for k in 0..4 {
+                let lost = times(&motion, &format!("wall[{k}]"), "lost");
+                assert_eq!(lost.len(), 1, "{asked}: {:?}", words(&motion));
+                agree(&asked, lost[0], left, 20.0 * tolerance);
             }
+            let State { q, .. } = motion.final_state();
+            agree(
+                &asked,
+                q[0],
+                half + reach * rate * (1.2 - left),
+                20.0 * tolerance,
+            );
+            agree(&asked, q[2], half, 20.0 * tolerance);
+            certified(asked, &motion);
         }
     }
 }
@@ -322,7 +319,7 @@ fn a_rod_that_lies_all_but_flat_falls() {
         let heel = (9.81 + 2.0 * fixed) / (4.0 - 2.0 * turned);
         let falls = 3.0 * (heel - fixed - turned * heel);
         let time = (2.0 * rod.lift / falls).sqrt();
-        for method in ["auto", "dop853", "dopri5", "verner98", "radau5"] {
+        for method in METHODS {
             // What is nearer than the tolerance touches.
             for tolerance in [1e-9, 1e-12] {
                 let what = format!("{rod:?} by {method} at {tolerance:e}");

@@ -2,8 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::fuzz::METHODS;
-use lagrange_tests::{Random, agree, closure, run};
+use lagrange_tests::{METHODS, Random, TOLERANCES, agree, closure, methods_at, run};
 
 /// Two balls on a line, and a wall.
 #[derive(Lagrangian, Clone, Debug)]
@@ -133,24 +132,22 @@ fn what_touches_and_carries_nothing_stays_closed() {
         bounce: 0.5,
     };
     let half = core::f64::consts::PI / (7.0_f64 / 1.3).sqrt();
-    for method in METHODS {
-        for tolerance in [1e-6, 1e-9, 1e-12] {
-            let run = |start| {
-                let simulation = Simulation::new(&carts).method(method).tolerance(tolerance);
-                simulation.run(start, 0.0..10.0).unwrap()
-            };
-            // All swing as one: nothing happens.
-            let together = run(carts.at(Carts::TOGETHER));
-            assert!(together.events().is_empty(), "{method} {tolerance}");
-            // All swing through the middle at the same times, whatever an impact makes of their speeds: they meet there, and never else.
-            let struck = run(carts.at(Carts::STRUCK));
-            let events = struck.events();
-            assert_eq!(events.len(), 7, "{method} {tolerance}");
-            for (k, event) in events.iter().enumerate() {
-                assert_eq!(event.kind, EventKind::Impact);
-                assert_eq!(event.subject, Carts::PAIR[0].into());
-                agree("t", event.time, (k as f64 + 0.5) * half, 20.0 * tolerance);
-            }
+    for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+        let run = |start| {
+            let simulation = Simulation::new(&carts).method(method).tolerance(tolerance);
+            simulation.run(start, 0.0..10.0).unwrap()
+        };
+        // All swing as one: nothing happens.
+        let together = run(carts.at(Carts::TOGETHER));
+        assert!(together.events().is_empty(), "{method} {tolerance}");
+        // All swing through the middle at the same times, whatever an impact makes of their speeds: they meet there, and never else.
+        let struck = run(carts.at(Carts::STRUCK));
+        let events = struck.events();
+        assert_eq!(events.len(), 7, "{method} {tolerance}");
+        for (k, event) in events.iter().enumerate() {
+            assert_eq!(event.kind, EventKind::Impact);
+            assert_eq!(event.subject, Carts::PAIR[0].into());
+            agree("t", event.time, (k as f64 + 0.5) * half, 20.0 * tolerance);
         }
     }
 }

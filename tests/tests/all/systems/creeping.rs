@@ -4,7 +4,7 @@
 use super::fading::{FIXED, METHODS};
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, run_by, words};
+use lagrange_tests::{agree, methods_at, run_by, words};
 
 /// Two sleeves in oil, with a dashpot between them.
 #[derive(Lagrangian, Clone, Debug)]
@@ -44,17 +44,15 @@ fn what_creeps_to_the_edge_of_its_dead_band_does_not_stick() {
     };
     let p = (x + y) * creeps(scene.damping);
     let d = edge + (x - y - edge) * creeps(scene.damping + 2.0 * scene.between);
-    for (method, times) in METHODS {
-        for tolerance in [1e-4, 1e-6, 1e-9, 1e-12] {
-            let start = state(&[x, y], &[0.0; 2]);
-            let run = run_by(&scene, (method, tolerance), start, until);
-            let what = format!("{method} at {tolerance:e}");
-            assert_eq!(words(&run), ["left slips", "right slips"], "{what}");
-            let mode = run.final_mode();
-            assert!(mode.slips(Sleeves::LEFT) && mode.slips(Sleeves::RIGHT));
-            let (end, allowed) = (run.final_state(), (times * tolerance).max(FIXED));
-            agree(&what, end.q(Sleeves::X), 0.5 * (p + d), allowed);
-            agree(&what, end.q(Sleeves::Y), 0.5 * (p - d), allowed);
-        }
+    for ((method, times), tolerance) in methods_at(METHODS, [1e-4, 1e-6, 1e-9, 1e-12]) {
+        let start = state(&[x, y], &[0.0; 2]);
+        let run = run_by(&scene, (method, tolerance), start, until);
+        let what = format!("{method} at {tolerance:e}");
+        assert_eq!(words(&run), ["left slips", "right slips"], "{what}");
+        let mode = run.final_mode();
+        assert!(mode.slips(Sleeves::LEFT) && mode.slips(Sleeves::RIGHT));
+        let (end, allowed) = (run.final_state(), (times * tolerance).max(FIXED));
+        agree(&what, end.q(Sleeves::X), 0.5 * (p + d), allowed);
+        agree(&what, end.q(Sleeves::Y), 0.5 * (p - d), allowed);
     }
 }

@@ -3,8 +3,7 @@
 use super::{PI, state};
 use core::f64::consts::TAU;
 use lagrange_core::prelude::*;
-use lagrange_tests::fuzz::METHODS;
-use lagrange_tests::{Random, agree, event, root, run_by};
+use lagrange_tests::{METHODS, Random, TOLERANCES, agree, event, methods_at, root, run_by};
 
 /// A rudder steers a boat back to its course, by the angle between −π and π.
 #[derive(Lagrangian, Clone, Debug)]
@@ -62,16 +61,13 @@ fn an_angle_that_passes_its_cut_pulls_the_other_way() {
     // Often, once, by 2 % of a turn within a step that a series could make, and never.
     for (gain, rate) in [(1.7, 6.0), (1.0, 4.0), (1.0, PI + 1e-3), (1.0, PI - 1e-3)] {
         let [heading, turning] = steered(gain, rate, 6.5);
-        for method in METHODS {
-            for tolerance in [1e-7, 1e-10] {
-                let method = method.to_string();
-                let start = state(&[0.0], &[rate]);
-                let run = run_by(&Boat { gain }, (&method, tolerance), start, 6.5);
-                let State { q, v, .. } = run.final_state();
-                let name = format!("{method} at {tolerance}, gain {gain}, rate {rate}");
-                agree(&name, q[0], heading, 1e3 * tolerance);
-                agree(&name, v[0], turning, 1e3 * tolerance);
-            }
+        for (method, tolerance) in methods_at(METHODS, [1e-7, 1e-10]) {
+            let start = state(&[0.0], &[rate]);
+            let run = run_by(&Boat { gain }, (method, tolerance), start, 6.5);
+            let State { q, v, .. } = run.final_state();
+            let name = format!("{method} at {tolerance}, gain {gain}, rate {rate}");
+            agree(&name, q[0], heading, 1e3 * tolerance);
+            agree(&name, v[0], turning, 1e3 * tolerance);
         }
     }
 }
@@ -101,12 +97,11 @@ fn what_passes_the_middle_of_a_funnel_is_pulled_back() {
     };
     let place = side * (1.0 - from_middle * from_middle);
     for method in METHODS {
-        let method = method.to_string();
         let start = state(&[0.6, 0.8], &[0.0; 2]);
-        let run = run_by(&funnel, (&method, 1e-9), start, until);
+        let run = run_by(&funnel, (method, 1e-9), start, until);
         let State { q, .. } = run.final_state();
-        agree(&method, q[0], 0.6 * place, 1e-6);
-        agree(&method, q[1], 0.8 * place, 1e-6);
+        agree(method, q[0], 0.6 * place, 1e-6);
+        agree(method, q[1], 0.8 * place, 1e-6);
     }
 }
 
@@ -133,33 +128,32 @@ fn distances_from_numbers_keep_their_digits() {
             &[0.337 - far * cos, -0.281 - far * sin],
             &[speed * cos, speed * sin],
         );
-        for method in ["auto", "dop853", "verner98", "radau5"] {
-            for tolerance in [1e-6, 1e-9, 1e-12] {
-                let what = format!("{speed} {cos} {far} by {method} at {tolerance:e}");
-                let end = (far + 1.95) / speed;
-                let motion = run_by(&Tether {}, (method, tolerance), start.clone(), end);
-                let of = |item: usize| {
-                    let marks = motion.events().iter();
-                    let marks = marks.filter(move |e| e.subject == Subject::Mark(item));
-                    marks
-                        .map(|mark| mark.time * speed - far)
-                        .collect::<Vec<f64>>()
-                };
-                let side = (0.613 - 0.337) / cos;
-                for (times, expected) in [
-                    (of(0), [-0.7, 0.7]),
-                    (of(1), [side - 0.1 / cos, side + 0.1 / cos]),
-                ] {
-                    let expected = expected.into_iter().filter(|x| *x < 1.9);
-                    let expected: Vec<f64> = expected.collect();
-                    assert_eq!(times.len(), expected.len(), "{what}: {times:?}");
-                    for (x, y) in times.iter().zip(expected) {
-                        agree(&what, *x, y, 1e2 * tolerance);
-                    }
+        for (method, tolerance) in methods_at(["auto", "dop853", "verner98", "radau5"], TOLERANCES)
+        {
+            let what = format!("{speed} {cos} {far} by {method} at {tolerance:e}");
+            let end = (far + 1.95) / speed;
+            let motion = run_by(&Tether {}, (method, tolerance), start.clone(), end);
+            let of = |item: usize| {
+                let marks = motion.events().iter();
+                let marks = marks.filter(move |e| e.subject == Subject::Mark(item));
+                marks
+                    .map(|mark| mark.time * speed - far)
+                    .collect::<Vec<f64>>()
+            };
+            let side = (0.613 - 0.337) / cos;
+            for (times, expected) in [
+                (of(0), [-0.7, 0.7]),
+                (of(1), [side - 0.1 / cos, side + 0.1 / cos]),
+            ] {
+                let expected = expected.into_iter().filter(|x| *x < 1.9);
+                let expected: Vec<f64> = expected.collect();
+                assert_eq!(times.len(), expected.len(), "{what}: {times:?}");
+                for (x, y) in times.iter().zip(expected) {
+                    agree(&what, *x, y, 1e2 * tolerance);
                 }
-                let caught = event(&motion, "string", "impact").time * speed - far;
-                agree(&what, caught, 1.9, 1e2 * tolerance);
             }
+            let caught = event(&motion, "string", "impact").time * speed - far;
+            agree(&what, caught, 1.9, 1e2 * tolerance);
         }
     }
 }

@@ -3,7 +3,9 @@
 
 use super::{PI, state};
 use lagrange_core::prelude::*;
-use lagrange_tests::{Random, agree, integral, run_by};
+use lagrange_tests::{
+    METHODS, Random, SINGLE_METHODS, TOLERANCES, agree, integral, methods_at, run_by,
+};
 
 /// Crank a and rod b of length 1, the slider at x on a line through the pivot.
 #[derive(Lagrangian, Clone, Debug)]
@@ -132,17 +134,15 @@ fn a_rod_without_mass_passes_its_dead_centres() {
             .windows(2)
             .map(|w| integral(|way| 1.0 / speed(w[0] + way), w[0], w[1]));
         let time: f64 = times.sum();
-        for method in ["taylor", "dop853", "verner98", "dopri5", "radau5"] {
-            for tolerance in [1e-6, 1e-9, 1e-12] {
-                let asked = format!("{method} at {tolerance:e} from {a:e}");
-                let start = state(&[a, b], &[rate, rate * turn]);
-                let run = run_by(&engine, (method, tolerance), start, 1.0);
-                let bound = 30.0 * tolerance;
-                agree(&asked, run.last_time() / time, 1.0, bound);
-                let end = run.final_state();
-                agree(&asked, end.v(Engine::A) / speed(3.5), 1.0, bound);
-                agree(&asked, end.q(Engine::B), engine.geometry(3.5).0, bound);
-            }
+        for (method, tolerance) in methods_at(SINGLE_METHODS, TOLERANCES) {
+            let asked = format!("{method} at {tolerance:e} from {a:e}");
+            let start = state(&[a, b], &[rate, rate * turn]);
+            let run = run_by(&engine, (method, tolerance), start, 1.0);
+            let bound = 30.0 * tolerance;
+            agree(&asked, run.last_time() / time, 1.0, bound);
+            let end = run.final_state();
+            agree(&asked, end.v(Engine::A) / speed(3.5), 1.0, bound);
+            agree(&asked, end.q(Engine::B), engine.geometry(3.5).0, bound);
         }
     }
 }
@@ -297,31 +297,29 @@ fn a_crank_in_space_passes_its_dead_centres() {
         };
         let energy =
             |rate: f64, slip: f64| (crank.inertia * rate * rate + crank.mass * slip * slip) / 2.0;
-        for method in ["auto", "dop853", "dopri5", "verner98", "radau5"] {
-            for tolerance in [1e-6, 1e-9, 1e-12] {
-                let what = format!("{crank:?} by {method} at {tolerance:e}");
-                let start = crank.at(SpatialCrank::TURNED);
-                let motion = run_by(&crank, (method, tolerance), start, 1.0);
-                let turns = motion.events().len();
-                assert!(turns > 3, "{what}: {turns} events");
-                let reverses = |e: &Event<f64>| e.kind == EventKind::Reverses;
-                assert!(motion.events().iter().all(reverses), "{what}");
-                let end = motion.final_state();
-                let (x, slip) = (end.q[0], end.v[0]);
-                // Out of the first turn, from one to the next, and on from the last.
-                let side = if turns % 2 == 1 { -1.0 } else { 1.0 };
-                let way = crank.arm * (1.0 + 1_f64.cos()) + 2.0 * crank.arm * (turns - 1) as f64;
-                let way = way + (x - side * crank.arm).abs();
-                let rate = slip / (crank.arm * crank.arm - x * x).sqrt();
-                let lost =
-                    energy(crank.rate, crank.arm * 1_f64.sin() * crank.rate) - energy(rate, slip);
-                agree(
-                    &what,
-                    lost / (crank.rubs * way),
-                    1.0,
-                    1e3 * tolerance.max(1e-11),
-                );
-            }
+        for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+            let what = format!("{crank:?} by {method} at {tolerance:e}");
+            let start = crank.at(SpatialCrank::TURNED);
+            let motion = run_by(&crank, (method, tolerance), start, 1.0);
+            let turns = motion.events().len();
+            assert!(turns > 3, "{what}: {turns} events");
+            let reverses = |e: &Event<f64>| e.kind == EventKind::Reverses;
+            assert!(motion.events().iter().all(reverses), "{what}");
+            let end = motion.final_state();
+            let (x, slip) = (end.q[0], end.v[0]);
+            // Out of the first turn, from one to the next, and on from the last.
+            let side = if turns % 2 == 1 { -1.0 } else { 1.0 };
+            let way = crank.arm * (1.0 + 1_f64.cos()) + 2.0 * crank.arm * (turns - 1) as f64;
+            let way = way + (x - side * crank.arm).abs();
+            let rate = slip / (crank.arm * crank.arm - x * x).sqrt();
+            let lost =
+                energy(crank.rate, crank.arm * 1_f64.sin() * crank.rate) - energy(rate, slip);
+            agree(
+                &what,
+                lost / (crank.rubs * way),
+                1.0,
+                1e3 * tolerance.max(1e-11),
+            );
         }
     }
 }

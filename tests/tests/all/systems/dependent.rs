@@ -2,7 +2,9 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{Random, agree, all_agree, run_by};
+use lagrange_tests::{
+    METHODS, Random, SINGLE_METHODS, TOLERANCES, agree, all_agree, methods_at, run_by,
+};
 
 /// A pendulum with a flywheel. (x, y) is its direction: a unit vector, and once more by its angle.
 #[derive(Lagrangian, Clone, Debug)]
@@ -33,32 +35,30 @@ fn forces_within_steps_are_the_smallest_ones() {
     };
     let own = scene.mass * scene.length * scene.length;
     let weight = scene.mass * scene.gravity * scene.length;
-    for method in ["taylor", "dop853", "dopri5", "verner98", "radau5"] {
-        for tolerance in [1e-3, 1e-5, 1e-7, 1e-9] {
-            let asked = format!("{method} {tolerance:e}");
-            let start = state(&[1.0, 0.0, 0.0], &[0.0, 3.0, 3.0]);
-            let motion = run_by(&scene, (method, tolerance), start, 3.0);
-            let mut sampler = motion.sampler();
-            for k in 0..=60 {
-                let now = sampler.at(0.05 * f64::from(k)).expect(&asked);
-                let (theta, rate) = (now.q(Direction::THETA), now.v(Direction::THETA));
-                let turn = -weight * theta.cos() / (scene.inertia + own);
-                let (s, c) = theta.sin_cos();
-                let a = own * (-c * rate * rate - s * turn);
-                let b = own * (-s * rate * rate + c * turn) + weight;
-                let unit = 0.4 * (a * c + b * s);
-                let forces = [unit, a - 2.0 * unit * c, b - 2.0 * unit * s];
-                let handles = [Direction::UNIT, Direction::LEVEL, Direction::UPRIGHT];
-                for (handle, force) in handles.into_iter().zip(forces) {
-                    agree(&asked, now.force(handle), force, 1e-9);
-                }
-                assert!(now.undetermined[0], "{asked}");
+    for (method, tolerance) in methods_at(SINGLE_METHODS, [1e-3, 1e-5, 1e-7, 1e-9]) {
+        let asked = format!("{method} {tolerance:e}");
+        let start = state(&[1.0, 0.0, 0.0], &[0.0, 3.0, 3.0]);
+        let motion = run_by(&scene, (method, tolerance), start, 3.0);
+        let mut sampler = motion.sampler();
+        for k in 0..=60 {
+            let now = sampler.at(0.05 * f64::from(k)).expect(&asked);
+            let (theta, rate) = (now.q(Direction::THETA), now.v(Direction::THETA));
+            let turn = -weight * theta.cos() / (scene.inertia + own);
+            let (s, c) = theta.sin_cos();
+            let a = own * (-c * rate * rate - s * turn);
+            let b = own * (-s * rate * rate + c * turn) + weight;
+            let unit = 0.4 * (a * c + b * s);
+            let forces = [unit, a - 2.0 * unit * c, b - 2.0 * unit * s];
+            let handles = [Direction::UNIT, Direction::LEVEL, Direction::UPRIGHT];
+            for (handle, force) in handles.into_iter().zip(forces) {
+                agree(&asked, now.force(handle), force, 1e-9);
             }
-            let certificate = motion.verify(3).expect("a certificate");
-            assert!(certificate.holds(), "{asked}: {certificate}");
-            assert_eq!(certificate.unevaluated, 0, "{asked}");
-            motion.ledger().expect(&asked);
+            assert!(now.undetermined[0], "{asked}");
         }
+        let certificate = motion.verify(3).expect("a certificate");
+        assert!(certificate.holds(), "{asked}: {certificate}");
+        assert_eq!(certificate.unevaluated, 0, "{asked}");
+        motion.ledger().expect(&asked);
     }
 }
 
@@ -98,16 +98,14 @@ fn a_side_rod_in_its_dead_centre_does_not_stand_for_the_other() {
         let (begin, speed, end) = (0.3, 4.0, 5.0);
         let growth = scene.torque / (2.0 * scene.inertia);
         let angle = begin + speed * end + 0.5 * growth * end * end;
-        for method in ["taylor", "dop853", "dopri5", "verner98", "radau5"] {
-            for tolerance in [1e-6, 1e-9, 1e-12] {
-                let asked = format!("{degrees}°, {method} {tolerance:e}");
-                let start = state(&[begin, begin], &[speed, speed]);
-                let motion = run_by(&scene, (method, tolerance), start, end);
-                let last = motion.final_state();
-                for (q, v) in last.q.iter().zip(&last.v) {
-                    agree(&asked, q / angle, 1.0, 10.0 * tolerance);
-                    agree(&asked, v / (speed + growth * end), 1.0, 10.0 * tolerance);
-                }
+        for (method, tolerance) in methods_at(SINGLE_METHODS, TOLERANCES) {
+            let asked = format!("{degrees}°, {method} {tolerance:e}");
+            let start = state(&[begin, begin], &[speed, speed]);
+            let motion = run_by(&scene, (method, tolerance), start, end);
+            let last = motion.final_state();
+            for (q, v) in last.q.iter().zip(&last.v) {
+                agree(&asked, q / angle, 1.0, 10.0 * tolerance);
+                agree(&asked, v / (speed + growth * end), 1.0, 10.0 * tolerance);
             }
         }
     }
@@ -143,17 +141,15 @@ fn rows_that_are_held_aside_are_those_that_say_least() {
     let angle = speed * end + 0.5 * scene.torque / total * end * end;
     let mut short = 0;
     for begin in [-0.9, 0.1, 0.7, 1.6] {
-        for method in ["taylor", "dop853", "dopri5", "verner98", "radau5"] {
-            for tolerance in [1e-6, 1e-9, 1e-12] {
-                let asked = format!("from {begin} by {method} at {tolerance:e}");
-                let start = state(&[begin, begin], &[speed, speed]);
-                let motion = run_by(&scene, (method, tolerance), start, end);
-                for q in &motion.final_state().q {
-                    agree(&asked, (q - begin) / angle, 1.0, 10.0 * tolerance);
-                }
-                let certificate = motion.verify(5).expect("a certificate");
-                short += usize::from(!certificate.holds());
+        for (method, tolerance) in methods_at(SINGLE_METHODS, TOLERANCES) {
+            let asked = format!("from {begin} by {method} at {tolerance:e}");
+            let start = state(&[begin, begin], &[speed, speed]);
+            let motion = run_by(&scene, (method, tolerance), start, end);
+            for q in &motion.final_state().q {
+                agree(&asked, (q - begin) / angle, 1.0, 10.0 * tolerance);
             }
+            let certificate = motion.verify(5).expect("a certificate");
+            short += usize::from(!certificate.holds());
         }
     }
     assert!(short <= 3, "{short} of 60 runs");
@@ -217,16 +213,14 @@ fn a_platform_on_parallel_rods_moves_as_a_pendulum() {
         let (place, speed) = ([0.48, 0.0, -0.64], random.between(0.3, 0.9));
         let start = state(&place, &[0.0, speed, 0.0]);
         let exact = run_by(&bob, ("taylor", 1e-13), start, 2.5);
-        for method in ["auto", "dopri5", "dop853", "verner98", "radau5"] {
-            for tolerance in [1e-6, 1e-9] {
-                let q = [&place[..], &[1.0, 0.0, 0.0, 0.0]].concat();
-                let v = [&[0.0, speed][..], &[0.0; 5]].concat();
-                let run = run_by(&platform, (method, tolerance), state(&q, &v), 2.5);
-                let asked = format!("case {case} by {method} at {tolerance:e}");
-                let (found, expected) = (run.final_state(), exact.final_state());
-                all_agree(&asked, &found.q[..3], &expected.q, 3000.0 * tolerance);
-                all_agree(&asked, &found.q[3..], &[1.0, 0.0, 0.0, 0.0], 1e-9);
-            }
+        for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-9]) {
+            let q = [&place[..], &[1.0, 0.0, 0.0, 0.0]].concat();
+            let v = [&[0.0, speed][..], &[0.0; 5]].concat();
+            let run = run_by(&platform, (method, tolerance), state(&q, &v), 2.5);
+            let asked = format!("case {case} by {method} at {tolerance:e}");
+            let (found, expected) = (run.final_state(), exact.final_state());
+            all_agree(&asked, &found.q[..3], &expected.q, 3000.0 * tolerance);
+            all_agree(&asked, &found.q[3..], &[1.0, 0.0, 0.0, 0.0], 1e-9);
         }
     }
 }
@@ -279,23 +273,22 @@ fn forces_of_a_cabin_that_stays_upright_balance() {
         let speed = random.between(1.0, 5.0);
         let square =
             |a: f64| speed * speed - 2.0 * cabin.mass * cabin.gravity * cabin.arm * a.sin() / total;
-        for method in ["auto", "dopri5", "dop853", "radau5"] {
-            for tolerance in [1e-6, 1e-9] {
-                let asked = format!("case {case} by {method} at {tolerance:e}");
-                let q = [0.0, cabin.arm, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
-                let v = [speed, 0.0, 0.0, speed * cabin.arm, 0.0, 0.0, 0.0, 0.0];
-                let run = run_by(&cabin, (method, tolerance), state(&q, &v), 2.5);
-                let end = run.final_state();
-                let rate = end.v(Cabin::A);
-                agree(
-                    &asked,
-                    rate * rate,
-                    square(end.q(Cabin::A)),
-                    1e3 * tolerance,
-                );
-                let certificate = run.verify(7).expect("a certificate");
-                assert!(certificate.holds(), "{asked}: {certificate}");
-            }
+        for (method, tolerance) in methods_at(["auto", "dopri5", "dop853", "radau5"], [1e-6, 1e-9])
+        {
+            let asked = format!("case {case} by {method} at {tolerance:e}");
+            let q = [0.0, cabin.arm, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
+            let v = [speed, 0.0, 0.0, speed * cabin.arm, 0.0, 0.0, 0.0, 0.0];
+            let run = run_by(&cabin, (method, tolerance), state(&q, &v), 2.5);
+            let end = run.final_state();
+            let rate = end.v(Cabin::A);
+            agree(
+                &asked,
+                rate * rate,
+                square(end.q(Cabin::A)),
+                1e3 * tolerance,
+            );
+            let certificate = run.verify(7).expect("a certificate");
+            assert!(certificate.holds(), "{asked}: {certificate}");
         }
     }
 }

@@ -4,15 +4,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, certified, run_by, times};
-
-const METHODS: [Method; 5] = [
-    Method::Taylor,
-    Method::DormandPrince54,
-    Method::DormandPrince853,
-    Method::Verner98,
-    Method::Radau5,
-];
+use lagrange_tests::{SINGLE_METHODS, TOLERANCES, agree, certified, run_by, times};
 
 /// A stone over an inclined floor of friction.
 #[derive(Lagrangian, Clone, Debug)]
@@ -75,7 +67,7 @@ fn from_rest(acceleration: f64, drag: f64, t: f64) -> (f64, f64) {
 fn a_stone_that_is_let_go_falls_and_lies() {
     let stone = Stone::on(0.0);
     let (depth, speed) = from_rest(stone.gravity, stone.drag / stone.mass, 1.0);
-    for method in METHODS {
+    for method in SINGLE_METHODS {
         let simulation = Simulation::new(&stone).tolerance(1e-11).method(method);
         let run = simulation
             .run(state(&[0.0, 0.0, 8.0], &[0.0; 3]), 0.0..3.0)
@@ -96,7 +88,7 @@ fn a_stone_that_is_let_go_on_a_steep_slope_slips_at_once() {
     let stone = Stone::on(0.6);
     let pull = stone.gravity * (stone.slope.sin() - 0.4 * stone.slope.cos());
     let (way, speed) = from_rest(pull, stone.drag / stone.mass, 2.0);
-    for method in METHODS {
+    for method in SINGLE_METHODS {
         let simulation = Simulation::new(&stone).tolerance(1e-11).method(method);
         let run = simulation
             .run(state(&[0.0; 3], &[0.0; 3]), 0.0..2.0)
@@ -131,7 +123,7 @@ fn a_dissipation_of_third_order_is_the_same_drag() {
     let to_top = (thrown / limit).atan() * limit / body.gravity;
     let top = ((thrown / limit).powi(2) + 1.0).ln() / (2.0 * rate);
     let (depth, speed) = from_rest(body.gravity, rate, 1.0);
-    for method in METHODS {
+    for method in SINGLE_METHODS {
         let simulation = Simulation::new(&body).tolerance(1e-10).method(method);
         let run = simulation
             .run(state(&[0.0, 0.0], &[0.0, thrown]), 0.0..to_top + 1.0)
@@ -297,7 +289,7 @@ fn a_speed_that_passes_zero_twice_is_slowed_all_the_way() {
         let speed = Speed { drag, dip };
         let known = run_by(&speed, ("dop853", 1e-13), speed.at(Speed::RUNS), 3.0);
         let bead = Bead { drag, dip };
-        for tolerance in [1e-6, 1e-9, 1e-12] {
+        for tolerance in TOLERANCES {
             let run = run_by(&bead, ("taylor", tolerance), bead.at(Bead::RUNS), 3.0);
             let asked = format!("{drag} {dip} {tolerance:e}");
             let [found, known] = [&run, &known].map(|run| run.final_state().q[0]);

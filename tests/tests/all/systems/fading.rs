@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, event, run_by, words};
+use lagrange_tests::{TOLERANCES, agree, event, methods_at, run_by, words};
 
 const G: f64 = 9.81;
 
@@ -52,19 +52,17 @@ fn a_slip_that_decays() {
     let (rate, until) = (3.0 * scene.wet * G, 12.0);
     let left = |t: f64| (-rate * t).exp();
     let x = scene.speed * (2.0 / 3.0 * until + (1.0 - left(until)) / (3.0 * rate));
-    for (method, times) in METHODS {
-        for tolerance in [1e-6, 1e-9, 1e-12] {
-            let run = run_by(&scene, (method, tolerance), scene.at(Disc::THROWN), until);
-            let what = format!("{method} at {tolerance:e}");
-            assert!(words(&run).is_empty(), "{what}: {:?}", words(&run));
-            assert!(run.final_mode().slips(Disc::FILM), "{what}");
-            agree(
-                &what,
-                run.final_state().q(Disc::X),
-                x,
-                (times * tolerance).max(FIXED),
-            );
-        }
+    for ((method, times), tolerance) in methods_at(METHODS, TOLERANCES) {
+        let run = run_by(&scene, (method, tolerance), scene.at(Disc::THROWN), until);
+        let what = format!("{method} at {tolerance:e}");
+        assert!(words(&run).is_empty(), "{what}: {:?}", words(&run));
+        assert!(run.final_mode().slips(Disc::FILM), "{what}");
+        agree(
+            &what,
+            run.final_state().q(Disc::X),
+            x,
+            (times * tolerance).max(FIXED),
+        );
     }
 }
 
@@ -92,29 +90,27 @@ fn a_slip_that_passes_zero_reverses_there() {
     };
     let decay = 0.5 * scene.wet * G;
     let turn = core::f64::consts::PI / (scene.stiffness - decay * decay).sqrt();
-    for (method, times) in METHODS {
-        for tolerance in [1e-6, 1e-9, 1e-12] {
-            let run = run_by(
-                &scene,
-                (method, tolerance),
-                state(&[1.0, 0.0], &[0.0; 2]),
-                10.0,
+    for ((method, times), tolerance) in methods_at(METHODS, TOLERANCES) {
+        let run = run_by(
+            &scene,
+            (method, tolerance),
+            state(&[1.0, 0.0], &[0.0; 2]),
+            10.0,
+        );
+        let what = format!("{method} at {tolerance:e}");
+        let turns = run
+            .events()
+            .iter()
+            .filter(|e| e.kind == EventKind::Reverses);
+        let turns: Vec<f64> = turns.map(|e| e.time).collect();
+        assert_eq!(turns.len(), 6, "{what}: {:?}", words(&run));
+        for (k, time) in turns.iter().enumerate() {
+            agree(
+                &what,
+                *time,
+                (k + 1) as f64 * turn,
+                (times * tolerance).max(FIXED),
             );
-            let what = format!("{method} at {tolerance:e}");
-            let turns = run
-                .events()
-                .iter()
-                .filter(|e| e.kind == EventKind::Reverses);
-            let turns: Vec<f64> = turns.map(|e| e.time).collect();
-            assert_eq!(turns.len(), 6, "{what}: {:?}", words(&run));
-            for (k, time) in turns.iter().enumerate() {
-                agree(
-                    &what,
-                    *time,
-                    (k + 1) as f64 * turn,
-                    (times * tolerance).max(FIXED),
-                );
-            }
         }
     }
 }
@@ -136,20 +132,18 @@ fn a_slip_that_creeps() {
     let turn = (-b * fast / (a * slow)).ln() / (slow - fast);
     let until: f64 = 400.0;
     let end = a * (slow * until).exp() + b * (fast * until).exp();
-    for (method, times) in METHODS {
-        for tolerance in [1e-6, 1e-9] {
-            let run = run_by(
-                &scene,
-                (method, tolerance),
-                state(&[x, 0.0], &[v, 0.0]),
-                until,
-            );
-            let what = format!("{method} at {tolerance:e}");
-            assert_eq!(words(&run).len(), 2, "{what}: {:?}", words(&run));
-            let allowed = (times * tolerance).max(FIXED);
-            agree(&what, event(&run, "oil", "reverses").time, turn, allowed);
-            agree(&what, run.final_state().q(Oiled::X), end, allowed);
-        }
+    for ((method, times), tolerance) in methods_at(METHODS, [1e-6, 1e-9]) {
+        let run = run_by(
+            &scene,
+            (method, tolerance),
+            state(&[x, 0.0], &[v, 0.0]),
+            until,
+        );
+        let what = format!("{method} at {tolerance:e}");
+        assert_eq!(words(&run).len(), 2, "{what}: {:?}", words(&run));
+        let allowed = (times * tolerance).max(FIXED);
+        agree(&what, event(&run, "oil", "reverses").time, turn, allowed);
+        agree(&what, run.final_state().q(Oiled::X), end, allowed);
     }
 }
 
@@ -184,15 +178,13 @@ fn a_slip_in_space_does_not_come_to_rest() {
         (-decay * until).exp() * (x * cos + (v + decay * x) / rate * sin)
     };
     let start = state(&[1.0, 0.2, 0.0], &[0.0, 1.5, 0.0]);
-    for (method, times) in METHODS {
-        for tolerance in [1e-6, 1e-9, 1e-12] {
-            let run = run_by(&scene, (method, tolerance), start.clone(), until);
-            let what = format!("{method} at {tolerance:e}");
-            assert!(words(&run).is_empty(), "{what}: {:?}", words(&run));
-            for (k, (x, v)) in [(1.0, 0.0), (0.2, 1.5)].into_iter().enumerate() {
-                let found = run.final_state().q(Puck::X[k]);
-                agree(&what, found, swings(x, v), (times * tolerance).max(FIXED));
-            }
+    for ((method, times), tolerance) in methods_at(METHODS, TOLERANCES) {
+        let run = run_by(&scene, (method, tolerance), start.clone(), until);
+        let what = format!("{method} at {tolerance:e}");
+        assert!(words(&run).is_empty(), "{what}: {:?}", words(&run));
+        for (k, (x, v)) in [(1.0, 0.0), (0.2, 1.5)].into_iter().enumerate() {
+            let found = run.final_state().q(Puck::X[k]);
+            agree(&what, found, swings(x, v), (times * tolerance).max(FIXED));
         }
     }
 }
@@ -235,19 +227,17 @@ fn one_coefficient_that_depends_on_the_slip() {
     let until: f64 = 10.0;
     let (sin, cos) = (rate * until).sin_cos();
     let x = (-decay * until).exp() * (cos + decay / rate * sin);
-    for (method, times) in METHODS {
-        for tolerance in [1e-6, 1e-9, 1e-12] {
-            let what = format!("{method} at {tolerance:e}");
-            let allowed = (times * tolerance).max(FIXED);
-            let start = state(&[0.0], &[held.belt]);
-            let run = run_by(&held, (method, tolerance), start, 10.0);
-            let first = &run.events()[0];
-            assert_eq!(first.kind.word(), "slips", "{what}");
-            agree(&what, first.q(Crate::X), torn, allowed);
-            let start = state(&[1.0], &[0.0]);
-            let run = run_by(&viscous, (method, tolerance), start, until);
-            agree(&what, run.final_state().q(Crate::X), x, allowed);
-        }
+    for ((method, times), tolerance) in methods_at(METHODS, TOLERANCES) {
+        let what = format!("{method} at {tolerance:e}");
+        let allowed = (times * tolerance).max(FIXED);
+        let start = state(&[0.0], &[held.belt]);
+        let run = run_by(&held, (method, tolerance), start, 10.0);
+        let first = &run.events()[0];
+        assert_eq!(first.kind.word(), "slips", "{what}");
+        agree(&what, first.q(Crate::X), torn, allowed);
+        let start = state(&[1.0], &[0.0]);
+        let run = run_by(&viscous, (method, tolerance), start, until);
+        agree(&what, run.final_state().q(Crate::X), x, allowed);
     }
 }
 

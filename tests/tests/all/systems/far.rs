@@ -2,8 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::fuzz::METHODS;
-use lagrange_tests::{agree, certified, run_by, words};
+use lagrange_tests::{METHODS, agree, certified, methods_at, run_by, words};
 
 /// Two bodies on a spring, with a bumper that rubs.
 #[derive(Lagrangian, Clone, Debug)]
@@ -46,31 +45,24 @@ fn bodies_meet_where_they_would_at_home() {
             .iter()
             .any(|event| event.kind == EventKind::Closed)
     );
-    for method in METHODS {
-        for tolerance in [1e-9, 1e-12] {
-            let far = run_by(
-                &bodies,
-                (&*method.to_string(), tolerance),
-                begin([1e7, 7e3]),
-                6.0,
-            );
-            let impacts = |run: &Trajectory| -> Vec<f64> {
-                let impacts = run
-                    .events()
-                    .iter()
-                    .filter(|event| event.kind == EventKind::Impact);
-                impacts.map(|event| event.time).take(4).collect()
-            };
-            for (far, home) in impacts(&far).into_iter().zip(impacts(&home)) {
-                agree("impact", far, home, 1e3 * tolerance + 1e-8);
-            }
-            assert!(
-                words(&far).contains(&"bumper closed".into()),
-                "{method} {:?}",
-                words(&far)
-            );
-            certified(format!("{method} {tolerance:e}"), &far);
+    for (method, tolerance) in methods_at(METHODS, [1e-9, 1e-12]) {
+        let far = run_by(&bodies, (method, tolerance), begin([1e7, 7e3]), 6.0);
+        let impacts = |run: &Trajectory| -> Vec<f64> {
+            let impacts = run
+                .events()
+                .iter()
+                .filter(|event| event.kind == EventKind::Impact);
+            impacts.map(|event| event.time).take(4).collect()
+        };
+        for (far, home) in impacts(&far).into_iter().zip(impacts(&home)) {
+            agree("impact", far, home, 1e3 * tolerance + 1e-8);
         }
+        assert!(
+            words(&far).contains(&"bumper closed".into()),
+            "{method} {:?}",
+            words(&far)
+        );
+        certified(format!("{method} {tolerance:e}"), &far);
     }
 }
 
@@ -102,31 +94,29 @@ fn a_rope_in_orbit_becomes_taut() {
     };
     let (radius, apart) = (6.8e6, 500.0);
     let speed = (pair.earth / radius).sqrt();
-    for method in METHODS {
-        for tolerance in [1e-9, 1e-12] {
-            let start = state(
-                &[radius, radius + apart, 0.0, 0.0],
-                &[0.0, 1.5, speed, speed],
-            );
-            let trajectory = run_by(&pair, (&*method.to_string(), tolerance), start, 4000.0);
-            assert!(
-                words(&trajectory).ends_with(&["rope closed".into()]),
-                "{method} {tolerance:e}"
-            );
-            let mut sampler = trajectory.sampler();
-            let mut moment = |t| {
-                sampler
-                    .at(t)
-                    .expect("an instant of the run")
-                    .observe(Satellites::MOMENT)
-            };
-            agree(
-                "moment",
-                moment(4000.0) / moment(0.0),
-                1.0,
-                100.0 * tolerance,
-            );
-            certified(format!("{method} {tolerance:e}"), &trajectory);
-        }
+    for (method, tolerance) in methods_at(METHODS, [1e-9, 1e-12]) {
+        let start = state(
+            &[radius, radius + apart, 0.0, 0.0],
+            &[0.0, 1.5, speed, speed],
+        );
+        let trajectory = run_by(&pair, (method, tolerance), start, 4000.0);
+        assert!(
+            words(&trajectory).ends_with(&["rope closed".into()]),
+            "{method} {tolerance:e}"
+        );
+        let mut sampler = trajectory.sampler();
+        let mut moment = |t| {
+            sampler
+                .at(t)
+                .expect("an instant of the run")
+                .observe(Satellites::MOMENT)
+        };
+        agree(
+            "moment",
+            moment(4000.0) / moment(0.0),
+            1.0,
+            100.0 * tolerance,
+        );
+        certified(format!("{method} {tolerance:e}"), &trajectory);
     }
 }

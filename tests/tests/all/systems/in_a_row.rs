@@ -3,7 +3,7 @@
 
 use super::{PI, state};
 use lagrange_core::prelude::*;
-use lagrange_tests::{Random, agree, event, root, run_by, words};
+use lagrange_tests::{Random, TOLERANCES, agree, event, methods_at, root, run_by, words};
 
 /// Three flywheels on overrunning clutches, one behind the other, behind a shaft that swings; each is slowed down by a weight on a drum.
 #[derive(Lagrangian, Clone, Debug)]
@@ -54,25 +54,23 @@ fn they_leave_together_and_come_back_together() {
             rate,
             rebound: 0.0,
         };
-        for method in ["auto", "dop853", "verner98"] {
-            for tolerance in [1e-6, 1e-9, 1e-12] {
-                let asked = format!("{wheels:?} {method} {tolerance:e}");
-                let start = state(&[0.0; 3], &[swing * rate; 3]);
-                let motion = run_by(&wheels, (method, tolerance), start, 2.6 * PI / rate);
-                let allowed = 100.0 * tolerance;
-                agree(
-                    &asked,
-                    rate * event(&motion, "shaft", "lost").time,
-                    rate * wheels.leaves(),
-                    allowed,
-                );
-                agree(
-                    &asked,
-                    rate * event(&motion, "shaft", "impact").time,
-                    rate * wheels.meets(),
-                    allowed,
-                );
-            }
+        for (method, tolerance) in methods_at(["auto", "dop853", "verner98"], TOLERANCES) {
+            let asked = format!("{wheels:?} {method} {tolerance:e}");
+            let start = state(&[0.0; 3], &[swing * rate; 3]);
+            let motion = run_by(&wheels, (method, tolerance), start, 2.6 * PI / rate);
+            let allowed = 100.0 * tolerance;
+            agree(
+                &asked,
+                rate * event(&motion, "shaft", "lost").time,
+                rate * wheels.leaves(),
+                allowed,
+            );
+            agree(
+                &asked,
+                rate * event(&motion, "shaft", "impact").time,
+                rate * wheels.meets(),
+                allowed,
+            );
         }
     }
 }
@@ -97,26 +95,24 @@ fn nothing_is_left_of_what_drives() {
         let rate = random.between(20.0, 300.0);
         let swing = random.between(0.5, 50.0) / (rate * rate);
         let wheels = Freewheels { swing, rate };
-        for method in ["auto", "dop853", "verner98"] {
-            for tolerance in [1e-6, 1e-9, 1e-12] {
-                let asked = format!("{wheels:?} {method} {tolerance:e}");
-                let motion = run_by(
-                    &wheels,
-                    (method, tolerance),
-                    state(&[0.0; 3], &[0.0; 3]),
-                    1.0,
-                );
-                let lost = event(&motion, "shaft", "lost").time;
-                agree(&asked, rate * lost, 0.5 * PI, 100.0 * tolerance);
-                let closed = words(&motion);
-                assert!(
-                    !closed.iter().any(|word| word.contains("impact")),
-                    "{asked}: {closed:?}"
-                );
-                let end = swing * (1.0 + rate * (1.0 - 0.5 * PI / rate));
-                for &angle in &motion.final_state().q {
-                    agree(&asked, angle, end, 1e4 * tolerance);
-                }
+        for (method, tolerance) in methods_at(["auto", "dop853", "verner98"], TOLERANCES) {
+            let asked = format!("{wheels:?} {method} {tolerance:e}");
+            let motion = run_by(
+                &wheels,
+                (method, tolerance),
+                state(&[0.0; 3], &[0.0; 3]),
+                1.0,
+            );
+            let lost = event(&motion, "shaft", "lost").time;
+            agree(&asked, rate * lost, 0.5 * PI, 100.0 * tolerance);
+            let closed = words(&motion);
+            assert!(
+                !closed.iter().any(|word| word.contains("impact")),
+                "{asked}: {closed:?}"
+            );
+            let end = swing * (1.0 + rate * (1.0 - 0.5 * PI / rate));
+            for &angle in &motion.final_state().q {
+                agree(&asked, angle, end, 1e4 * tolerance);
             }
         }
     }

@@ -2,7 +2,9 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{Random, agree, all_agree, root, run, run_by, times, words};
+use lagrange_tests::{
+    METHODS, Random, TOLERANCES, agree, all_agree, methods_at, root, run, run_by, times, words,
+};
 
 /// A ball between floor and ceiling.
 #[derive(Lagrangian, Clone, Debug)]
@@ -139,15 +141,13 @@ struct Pulled {
 fn what_begins_at_a_stop_with_its_cube_is_not_stopped() {
     for k in [0.3, 0.9, 1.3, 7.0] {
         let pulled = Pulled { k };
-        for method in ["auto", "dop853", "dopri5", "verner98", "radau5"] {
-            for tolerance in [1e-6, 1e-9, 1e-10, 1e-12] {
-                let run = run_by(&pulled, (method, tolerance), pulled.at(Pulled::REST), 5.0);
-                let what = format!("{k} by {method} at {tolerance:e}: {:?}", words(&run));
-                assert!(run.events().is_empty(), "{what}");
-                let root = 2.0_f64.sqrt();
-                let y = k / 2.0 * (5.0 - (root * 5.0).sin() / root);
-                agree(&what, run.final_state().q[0], y, 300.0 * tolerance);
-            }
+        for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-9, 1e-10, 1e-12]) {
+            let run = run_by(&pulled, (method, tolerance), pulled.at(Pulled::REST), 5.0);
+            let what = format!("{k} by {method} at {tolerance:e}: {:?}", words(&run));
+            assert!(run.events().is_empty(), "{what}");
+            let root = 2.0_f64.sqrt();
+            let y = k / 2.0 * (5.0 - (root * 5.0).sin() / root);
+            agree(&what, run.final_state().q[0], y, 300.0 * tolerance);
         }
     }
 }
@@ -179,7 +179,7 @@ fn a_mark_that_becomes_true_twice_in_a_step_is_logged_twice() {
             b,
             c: b + random.between(0.05, 0.3),
         };
-        for method in ["auto", "dop853", "dopri5", "verner98", "radau5"] {
+        for method in METHODS {
             let run = run_by(&cubic, (method, 1e-9), cubic.at(Cubic::BELOW), 1.0);
             let what = format!("{cubic:?} by {method}");
             for (item, expected) in [
@@ -266,15 +266,13 @@ fn a_mark_is_passed_where_a_friction_reverses() {
         let velocity = |t: f64| 0.7 - t / 2.0 + push * (1.0 - (3.0 * t).cos()) / 3.0;
         let turns = root(velocity, 1.4, 2.1);
         let rubbed = Rubbed { push };
-        for method in ["auto", "dop853", "dopri5", "verner98", "radau5"] {
-            for tolerance in [1e-6, 1e-9, 1e-12] {
-                let run = run_by(&rubbed, (method, tolerance), rubbed.at(Rubbed::GO), 1.95);
-                let what = format!("{push} by {method} at {tolerance:e}");
-                for mark in ["turns", "also"] {
-                    let times = times(&run, mark, "mark");
-                    assert!(!times.is_empty(), "{what}: {mark}");
-                    agree(&what, times[0], turns, 100.0 * tolerance);
-                }
+        for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+            let run = run_by(&rubbed, (method, tolerance), rubbed.at(Rubbed::GO), 1.95);
+            let what = format!("{push} by {method} at {tolerance:e}");
+            for mark in ["turns", "also"] {
+                let times = times(&run, mark, "mark");
+                assert!(!times.is_empty(), "{what}: {mark}");
+                agree(&what, times[0], turns, 100.0 * tolerance);
             }
         }
     }

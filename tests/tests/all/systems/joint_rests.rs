@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{Random, agree, event, run, run_by};
+use lagrange_tests::{METHODS, Random, TOLERANCES, agree, event, methods_at, run, run_by};
 
 /// A bob on a rod rubs along two walls and is pushed ever more.
 #[derive(Lagrangian, Clone, Debug)]
@@ -34,29 +34,27 @@ fn frictions_that_come_to_rest_together_hold_together() {
         let speed = -random.between(1.2, 1.7);
         let (sin, cos) = random.between(0.02, 0.3).sin_cos();
         let start = state(&[sin, -cos], &[speed * cos, speed * sin]);
-        for method in ["auto", "dop853", "dopri5", "verner98", "radau5"] {
-            for tolerance in [1e-6, 1e-9, 1e-12] {
-                let motion = run_by(&bob, (method, tolerance), start.clone(), 3.0);
-                let sticks = motion.events().iter().find(|event| {
-                    event.kind == EventKind::Sticks && event.subject == Subject::Friction(1)
-                });
-                let Some(rest) = sticks else {
-                    continue;
-                };
-                rested += 1;
-                let what = format!("{bob:?} {speed} by {method} at {tolerance:e}");
-                agree(
-                    &what,
-                    event(&motion, "floor", "sticks").time,
-                    rest.time,
-                    1e-15,
-                );
-                let [x, y] = [0, 1].map(|j| rest.state_after.q[j].abs());
-                let time = ((bob.a * y + bob.b * x) / (bob.rise * y)).sqrt();
-                for friction in ["floor", "wall"] {
-                    let slips = event(&motion, friction, "slips").time;
-                    agree(&what, slips, time, 100.0 * tolerance);
-                }
+        for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+            let motion = run_by(&bob, (method, tolerance), start.clone(), 3.0);
+            let sticks = motion.events().iter().find(|event| {
+                event.kind == EventKind::Sticks && event.subject == Subject::Friction(1)
+            });
+            let Some(rest) = sticks else {
+                continue;
+            };
+            rested += 1;
+            let what = format!("{bob:?} {speed} by {method} at {tolerance:e}");
+            agree(
+                &what,
+                event(&motion, "floor", "sticks").time,
+                rest.time,
+                1e-15,
+            );
+            let [x, y] = [0, 1].map(|j| rest.state_after.q[j].abs());
+            let time = ((bob.a * y + bob.b * x) / (bob.rise * y)).sqrt();
+            for friction in ["floor", "wall"] {
+                let slips = event(&motion, friction, "slips").time;
+                agree(&what, slips, time, 100.0 * tolerance);
             }
         }
     }
@@ -135,15 +133,13 @@ fn frictions_that_are_in_their_dead_centres_together_do_not_hold() {
             let way = |turns: f64| 2.0 - (turns * cams.q0).cos() - (turns * q).cos();
             cams.f * way(cams.a) + cams.g * cams.c * way(cams.b)
         };
-        for method in ["auto", "dop853", "dopri5", "verner98", "radau5"] {
-            for tolerance in [1e-6, 1e-9, 1e-12] {
-                let what = format!("{cams:?} by {method} at {tolerance:e}");
-                let motion = run_by(&cams, (method, tolerance), cams.at(Cams::TURNING), 0.7);
-                let end = motion.final_state();
-                assert!(end.q[0] > 0.0, "{what}: {}", end.q[0]);
-                let lost = energy(cams.q0, cams.w) - energy(end.q[0], end.v[0]);
-                agree(&what, lost, taken(end.q[0]), 100.0 * tolerance);
-            }
+        for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+            let what = format!("{cams:?} by {method} at {tolerance:e}");
+            let motion = run_by(&cams, (method, tolerance), cams.at(Cams::TURNING), 0.7);
+            let end = motion.final_state();
+            assert!(end.q[0] > 0.0, "{what}: {}", end.q[0]);
+            let lost = energy(cams.q0, cams.w) - energy(end.q[0], end.v[0]);
+            agree(&what, lost, taken(end.q[0]), 100.0 * tolerance);
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::state;
 use core::f64::consts::PI;
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, event, run_by, words};
+use lagrange_tests::{TOLERANCES, agree, event, methods_at, run_by, words};
 
 const METHODS: [&str; 7] = [
     "taylor",
@@ -206,22 +206,20 @@ fn two_conditions_that_hold_together_for_a_moment() {
 #[test]
 fn two_conditions_that_become_true_at_once() {
     let opens: f64 = 0.9;
-    for method in METHODS {
-        for tolerance in [1e-6, 1e-9, 1e-12] {
-            let scene = Window {
-                opens: opens.sin(),
-                closes: opens.sin(),
-            };
-            let together = state(&[0.0, 0.0], &[1.0, 1.0]);
-            let run = run_by(&scene, (method, tolerance), together, 3.0);
-            let asked = format!("{method} {tolerance:e}");
-            agree(
-                &asked,
-                event(&run, "window", "stop").time,
-                opens,
-                100.0 * tolerance,
-            );
-        }
+    for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+        let scene = Window {
+            opens: opens.sin(),
+            closes: opens.sin(),
+        };
+        let together = state(&[0.0, 0.0], &[1.0, 1.0]);
+        let run = run_by(&scene, (method, tolerance), together, 3.0);
+        let asked = format!("{method} {tolerance:e}");
+        agree(
+            &asked,
+            event(&run, "window", "stop").time,
+            opens,
+            100.0 * tolerance,
+        );
     }
 }
 
@@ -298,9 +296,9 @@ fn marks_at_a_surface_are_passed_once_a_blow() {
         bounce: 0.5,
     };
     let fall = (2.0_f64 / ball.gravity).sqrt();
-    for method in lagrange_tests::fuzz::METHODS.map(|method| method.to_string()) {
+    for method in lagrange_tests::METHODS {
         let motion =
-            lagrange_tests::run_by(&ball, (&method, 1e-9), ball.at(Bouncing::DROP), 2.3 * fall);
+            lagrange_tests::run_by(&ball, (method, 1e-9), ball.at(Bouncing::DROP), 2.3 * fall);
         let times = |kind: EventKind, name: &str| -> Vec<f64> {
             let events = motion.events().iter();
             let own =

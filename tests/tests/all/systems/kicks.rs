@@ -2,8 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::fuzz::METHODS;
-use lagrange_tests::{agree, closure, run_by};
+use lagrange_tests::{METHODS, agree, closure, methods_at, run_by};
 
 /// A pendulum on a pivot that a cam lifts and drops: its speed jumps from −0.6 to 0.6 at each bottom.
 #[derive(Lagrangian, Clone, Debug)]
@@ -64,24 +63,22 @@ struct Switched {
 type Kick = (f64, Option<&'static str>, [f64; 2], f64);
 
 fn kick<S: System<Scalar = f64>>(scene: &S, start: State<f64>) -> Vec<Kick> {
-    let all = METHODS.into_iter().flat_map(|method| {
-        [1e-4, 1e-9].map(|tolerance| {
-            let simulation = Simulation::new(scene).method(method).tolerance(tolerance);
-            let failure = simulation.run(start.clone(), 0.0..9.0).expect_err("a kick");
-            let Error::Kick {
-                time,
-                momentum,
-                before,
-                after,
-                ..
-            } = failure.error
-            else {
-                panic!("{method} at {tolerance}: {failure}")
-            };
-            assert_eq!(failure.trajectory.last_time(), time);
-            let place = failure.trajectory.final_state().q[0];
-            (time, momentum, [before, after], place)
-        })
+    let all = methods_at(METHODS, [1e-4, 1e-9]).map(|(method, tolerance)| {
+        let simulation = Simulation::new(scene).method(method).tolerance(tolerance);
+        let failure = simulation.run(start.clone(), 0.0..9.0).expect_err("a kick");
+        let Error::Kick {
+            time,
+            momentum,
+            before,
+            after,
+            ..
+        } = failure.error
+        else {
+            panic!("{method} at {tolerance}: {failure}")
+        };
+        assert_eq!(failure.trajectory.last_time(), time);
+        let place = failure.trajectory.final_state().q[0];
+        (time, momentum, [before, after], place)
     });
     all.collect()
 }
@@ -156,10 +153,9 @@ fn a_stiffness_that_changes_at_once_does_work() {
         (x, v, t) = (x * c + v / w * s, v * c - w * x * s, next);
     }
     for method in METHODS {
-        let method = method.to_string();
-        let run = run_by(&switched, (&method, 1e-10), state(&[1.0], &[0.3]), until);
-        agree(&method, run.final_state().q[0], x, 1e-7);
-        agree(&method, run.final_state().v[0], v, 1e-7);
+        let run = run_by(&switched, (method, 1e-10), state(&[1.0], &[0.3]), until);
+        agree(method, run.final_state().q[0], x, 1e-7);
+        agree(method, run.final_state().v[0], v, 1e-7);
         assert!(closure(&run) < 1e-8, "{method}: {}", closure(&run));
     }
 }

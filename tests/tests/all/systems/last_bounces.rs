@@ -2,8 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::fuzz::METHODS;
-use lagrange_tests::{agree, event, run_by};
+use lagrange_tests::{METHODS, TOLERANCES, agree, event, methods_at, run_by};
 
 /// A block dropped onto a rough incline, which lifts or not while the block bounces.
 #[derive(Lagrangian, Clone, Debug)]
@@ -36,19 +35,17 @@ fn the_last_bounces_rub_as_the_others_do() {
             bounce,
             mu,
         };
-        for method in ["taylor", "dop853"] {
-            for tolerance in [1e-6, 1e-9, 1e-12] {
-                let until = 4.0;
-                let start = state(&[0.0, 0.5], &[8.0, -1.0]);
-                let motion = run_by(&scene, (method, tolerance), start, until);
-                let closes = event(&motion, "plane", "accumulates").time;
-                assert!(closes < until);
-                let normal = (lift + 9.0 * scene.slope.cos()) * until + 1.0;
-                let speed = 8.0 + 9.0 * scene.slope.sin() * until - mu * normal;
-                assert!(speed > 0.0, "it slides all the time");
-                let asked = format!("{method} {tolerance:e}, {bounce}: speed");
-                agree(&asked, motion.final_state().v[0], speed, 10.0 * tolerance);
-            }
+        for (method, tolerance) in methods_at(["taylor", "dop853"], TOLERANCES) {
+            let until = 4.0;
+            let start = state(&[0.0, 0.5], &[8.0, -1.0]);
+            let motion = run_by(&scene, (method, tolerance), start, until);
+            let closes = event(&motion, "plane", "accumulates").time;
+            assert!(closes < until);
+            let normal = (lift + 9.0 * scene.slope.cos()) * until + 1.0;
+            let speed = 8.0 + 9.0 * scene.slope.sin() * until - mu * normal;
+            assert!(speed > 0.0, "it slides all the time");
+            let asked = format!("{method} {tolerance:e}, {bounce}: speed");
+            agree(&asked, motion.final_state().v[0], speed, 10.0 * tolerance);
         }
     }
 }
@@ -81,17 +78,15 @@ fn a_bar_that_has_fallen_flat_is_slowed_down() {
         bounce: 0.07,
         mu: 0.15,
     };
-    for method in ["taylor", "dopri5"] {
-        for tolerance in [1e-6, 1e-9, 1e-12] {
-            let start = state(&[0.0, 1.2, 0.25], &[2.7, -0.4, 0.5]);
-            let motion = run_by(&scene, (method, tolerance), start, 0.9);
-            let asked = format!("{method} {tolerance:e}");
-            assert!(event(&motion, "left", "closed").time < 0.8, "{asked}");
-            // Whatever the ends carry, ∫N dt = m (g t − ẏ₀).
-            let speed = 2.7 - 0.15 * (9.81 * 0.9 + 0.4);
-            agree(&asked, motion.final_state().v[0], speed, 10.0 * tolerance);
-            assert!(motion.verify(0).expect("a certificate").holds(), "{asked}");
-        }
+    for (method, tolerance) in methods_at(["taylor", "dopri5"], TOLERANCES) {
+        let start = state(&[0.0, 1.2, 0.25], &[2.7, -0.4, 0.5]);
+        let motion = run_by(&scene, (method, tolerance), start, 0.9);
+        let asked = format!("{method} {tolerance:e}");
+        assert!(event(&motion, "left", "closed").time < 0.8, "{asked}");
+        // Whatever the ends carry, ∫N dt = m (g t − ẏ₀).
+        let speed = 2.7 - 0.15 * (9.81 * 0.9 + 0.4);
+        agree(&asked, motion.final_state().v[0], speed, 10.0 * tolerance);
+        assert!(motion.verify(0).expect("a certificate").holds(), "{asked}");
     }
 }
 
@@ -122,24 +117,22 @@ fn what_sticks_between_bounces_sticks_where_they_end() {
         bounce: 0.6,
         hold: 60.0,
     };
-    for method in ["taylor", "dop853", "verner98"] {
-        for tolerance in [1e-6, 1e-9, 1e-12] {
-            let start = state(&[0.5, 1.0], &[0.0, 0.0]);
-            let run = run_by(&scene, (method, tolerance), start, 5.0);
-            let ends = |e: &Event<f64>| matches!(e.kind, EventKind::Accumulates { .. });
-            let rest = run.events().iter().position(ends);
-            let after = &run.events()[rest.expect("the bounces end")..];
-            let kinds: Vec<&EventKind> = after.iter().map(|event| &event.kind).collect();
-            assert!(
-                matches!(kinds[..], [_, EventKind::Closed]),
-                "{method} {tolerance:e}: {kinds:?}"
-            );
-            assert!(run.final_mode().sticks(Sleeve::CLAMP));
-            let weight = after[1].force_after(Sleeve::FLOOR);
-            agree("weight", weight, 1.7 * 9.81, 1e-9);
-            let carried = after[1].force_after(Sleeve::CLAMP);
-            agree("carried", carried, 0.7 * 9.81, 1e-9);
-        }
+    for (method, tolerance) in methods_at(["taylor", "dop853", "verner98"], TOLERANCES) {
+        let start = state(&[0.5, 1.0], &[0.0, 0.0]);
+        let run = run_by(&scene, (method, tolerance), start, 5.0);
+        let ends = |e: &Event<f64>| matches!(e.kind, EventKind::Accumulates { .. });
+        let rest = run.events().iter().position(ends);
+        let after = &run.events()[rest.expect("the bounces end")..];
+        let kinds: Vec<&EventKind> = after.iter().map(|event| &event.kind).collect();
+        assert!(
+            matches!(kinds[..], [_, EventKind::Closed]),
+            "{method} {tolerance:e}: {kinds:?}"
+        );
+        assert!(run.final_mode().sticks(Sleeve::CLAMP));
+        let weight = after[1].force_after(Sleeve::FLOOR);
+        agree("weight", weight, 1.7 * 9.81, 1e-9);
+        let carried = after[1].force_after(Sleeve::CLAMP);
+        agree("carried", carried, 0.7 * 9.81, 1e-9);
     }
 }
 
@@ -213,25 +206,23 @@ fn impacts_within_a_step_are_as_exact_as_its_end() {
         bounce: 0.7,
     };
     let amplitude: f64 = 1.0 + block.reach;
-    for method in METHODS {
-        for tolerance in [1e-6, 1e-9, 1e-12] {
-            let simulation = Simulation::new(&block).method(method).tolerance(tolerance);
-            let motion = simulation
-                .run(block.at(PressedBlock::PULLED), 0.0..3.0)
-                .unwrap();
-            let mut speed = block.rate * (amplitude.powi(2) - block.reach.powi(2)).sqrt();
-            let mut time = (block.reach / amplitude).acos() / block.rate;
-            let impacts = motion.events().iter();
-            let impacts = impacts.filter(|event| event.kind == EventKind::Impact);
-            for (k, impact) in impacts.enumerate() {
-                let what = format!("impact {k} with {method} at {tolerance:e}");
-                agree(&what, impact.time, time, 5.0 * tolerance);
-                speed *= block.bounce;
-                time += 2.0 / block.rate * (speed / (block.rate * block.reach)).atan();
-            }
-            let last = motion.events().last().unwrap();
-            assert_eq!(last.kind, EventKind::Closed, "{method} {tolerance:e}");
+    for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+        let simulation = Simulation::new(&block).method(method).tolerance(tolerance);
+        let motion = simulation
+            .run(block.at(PressedBlock::PULLED), 0.0..3.0)
+            .unwrap();
+        let mut speed = block.rate * (amplitude.powi(2) - block.reach.powi(2)).sqrt();
+        let mut time = (block.reach / amplitude).acos() / block.rate;
+        let impacts = motion.events().iter();
+        let impacts = impacts.filter(|event| event.kind == EventKind::Impact);
+        for (k, impact) in impacts.enumerate() {
+            let what = format!("impact {k} with {method} at {tolerance:e}");
+            agree(&what, impact.time, time, 5.0 * tolerance);
+            speed *= block.bounce;
+            time += 2.0 / block.rate * (speed / (block.rate * block.reach)).atan();
         }
+        let last = motion.events().last().unwrap();
+        assert_eq!(last.kind, EventKind::Closed, "{method} {tolerance:e}");
     }
 }
 
@@ -272,10 +263,7 @@ fn the_last_bounces_of_a_gap_with_a_short_series() {
                 bounce,
                 turned,
             };
-            for (method, tolerance) in METHODS
-                .into_iter()
-                .flat_map(|m| [(m, 1e-6), (m, 1e-9), (m, 1e-12)])
-            {
+            for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
                 let asked = format!("{method} {tolerance:e}, {bounce}, {turned}");
                 let simulation = Simulation::new(&scene).method(method).tolerance(tolerance);
                 let run = simulation.run(scene.at(Tappet::ABOVE), 0.0..6.0);

@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::agree;
+use lagrange_tests::{TOLERANCES, agree};
 
 /// A mass whose push begins like t³⁶: up to the largest order the series at t = 0 is that of a mass left alone.
 #[derive(Lagrangian, Clone, Debug)]
@@ -19,7 +19,7 @@ struct Late {
 #[test]
 fn a_step_is_checked_at_its_end_and_not_by_its_coefficients() {
     let scene = Late { scale: 1.5 };
-    for tolerance in [1e-6, 1e-9, 1e-12] {
+    for tolerance in TOLERANCES {
         let motion = Simulation::new(&scene)
             .tolerance(tolerance)
             .run(state(&[0.0], &[0.25]), 0.0..2.0)

@@ -2,8 +2,7 @@
 //! not determined.
 
 use lagrange_core::prelude::*;
-use lagrange_tests::certified;
-use lagrange_tests::fuzz::METHODS;
+use lagrange_tests::{METHODS, certified, methods_at};
 
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
@@ -55,16 +54,14 @@ fn a_chain_lies_down() {
         ),
     ];
     for chain in chains {
-        for method in METHODS {
-            for tolerance in [1e-6, 1e-9] {
-                let simulation = Simulation::new(&chain)
-                    .method(method)
-                    .tolerance(tolerance)
-                    .project_start(true);
-                let trajectory = simulation.run(chain.at(Chain::THROWN), 0.0..3.0);
-                let trajectory = trajectory.unwrap_or_else(|failure| panic!("{method}: {failure}"));
-                certified(format!("{method} {tolerance:e}"), &trajectory);
-            }
+        for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-9]) {
+            let simulation = Simulation::new(&chain)
+                .method(method)
+                .tolerance(tolerance)
+                .project_start(true);
+            let trajectory = simulation.run(chain.at(Chain::THROWN), 0.0..3.0);
+            let trajectory = trajectory.unwrap_or_else(|failure| panic!("{method}: {failure}"));
+            certified(format!("{method} {tolerance:e}"), &trajectory);
         }
     }
 }

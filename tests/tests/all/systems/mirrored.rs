@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, run_by};
+use lagrange_tests::{agree, methods_at, run_by};
 
 const METHODS: [&str; 6] = [
     "taylor",
@@ -92,10 +92,7 @@ fn two_mirrored_cranks_move_as_one() {
             -scene.crank * angle.sin() - (scene.rod.powi(2) - across.powi(2)).max(0.0).sqrt();
         let start = state(&[height, angle], &[0.0; 2]);
         let exact = run_by(&half, ("taylor", 1e-12), start, 3.0);
-        for (method, tolerance) in METHODS
-            .into_iter()
-            .flat_map(|m| [(m, 1e-5), (m, 1e-6), (m, 1e-9)])
-        {
+        for (method, tolerance) in methods_at(METHODS, [1e-5, 1e-6, 1e-9]) {
             let start = state(&[0.0, height, angle, angle], &[0.0; 4]);
             let run = run_by(&scene, (method, tolerance), start, 3.0);
             let asked = format!("{method} {tolerance:e}, {k}");
@@ -189,7 +186,7 @@ fn three_equal_arms_move_as_one() {
             state(&[angle, height], &[0.0; 2]),
             5.0,
         );
-        for (method, tolerance) in METHODS.into_iter().flat_map(|m| [(m, 1e-6), (m, 1e-9)]) {
+        for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-9]) {
             let start = state(&[angle, angle, angle, 0.0, 0.0, height], &[0.0; 6]);
             let run = run_by(&scene, (method, tolerance), start, 5.0);
             let asked = format!("{method} {tolerance:e}, {mass} kg");

@@ -101,7 +101,7 @@ fn a_bar_slips_when_both_cones_cannot_hold_it() {
             let start = state(&[0.0, 0.0, tilt], &[0.0; 3]);
             let motion = run_by(&bar, (method, tolerance), start, held + 0.01);
             agree(
-                &format!("{method}, bar {k}"),
+                format!("{method}, bar {k}"),
                 first_slip(&motion),
                 held,
                 1e-8,
@@ -279,7 +279,7 @@ fn a_plate_slips_when_all_cones_cannot_hold_it() {
             let start = state(&[0.0; 3], &[0.0; 3]);
             let motion = run_by(&plate, (method, tolerance), start, limit + 0.01);
             agree(
-                &format!("{method}, plate {k}"),
+                format!("{method}, plate {k}"),
                 first_slip(&motion),
                 limit,
                 1e-7,

@@ -55,14 +55,14 @@ fn numbers_that_become_zero_or_one_are_taken_as_they_are() {
         for t in [0.0, 0.1, 0.2] {
             let now = sampler.at(t).expect("within");
             let expected = scene.accelerations([now.state.q[0], now.state.q[1]], now.state.v[1]);
-            all_agree(&format!("{scene:?}"), &now.acceleration, &expected, 1e-14);
+            all_agree(format!("{scene:?}"), &now.acceleration, &expected, 1e-14);
         }
         // The series as well, by what they make of the velocities.
         let (one, other) = (sampler.at(0.1), sampler.at(0.1002));
         let (one, other) = (one.expect("within"), other.expect("within"));
         let slopes = [0, 1].map(|i| (other.state.v[i] - one.state.v[i]) / 2e-4);
         let expected = scene.accelerations([one.state.q[0], one.state.q[1]], one.state.v[1]);
-        all_agree(&format!("{scene:?}"), &slopes, &expected, 1e-3);
+        all_agree(format!("{scene:?}"), &slopes, &expected, 1e-3);
     }
 }
 
@@ -271,6 +271,6 @@ fn cones_of_friction_hold_as_much_of_any_mass() {
         agree("time", slips.time, 1.5, 1e-12);
         let speed = (16.0 - 2.25) - 3.0 * 2.5;
         let expected = [0.6 * speed, 0.8 * speed, 0.0];
-        all_agree(&format!("{mass:e}"), &run.final_state().v, &expected, 1e-11);
+        all_agree(format!("{mass:e}"), &run.final_state().v, &expected, 1e-11);
     }
 }

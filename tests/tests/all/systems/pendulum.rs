@@ -108,8 +108,8 @@ fn the_period_is_that_of_gauss() {
             let start = state(&[amplitude], &[0.0]);
             let run = run_by(&scene, (method, 1e-13), start, 5.0 * period);
             let end = run.final_state();
-            agree(&format!("{method}: θ"), end.q[0], amplitude, 1e-10);
-            agree(&format!("{method}: θ̇"), end.v[0], 0.0, 1e-9);
+            agree(format!("{method}: θ"), end.q[0], amplitude, 1e-10);
+            agree(format!("{method}: θ̇"), end.v[0], 0.0, 1e-9);
         }
     }
 }

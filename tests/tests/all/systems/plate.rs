@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, all_agree, closure, run, run_by, words};
+use lagrange_tests::{SINGLE_METHODS, agree, all_agree, closure, methods_at, run, run_by, words};
 
 /// Each leg carries a third of the weight.
 #[derive(Lagrangian, Clone, Debug)]
@@ -131,10 +131,7 @@ fn a_sled_turns_about_the_foot_that_stops_first() {
     ] {
         let start = || state(&[0.0; 3], &[v, 0.3 * v, w]);
         let exact = run_by(&sled, ("taylor", 1e-12), start(), 5.0);
-        for (method, tolerance) in ["taylor", "dop853", "dopri5", "verner98", "radau5"]
-            .into_iter()
-            .flat_map(|method| [(method, 1e-6), (method, 1e-9)])
-        {
+        for (method, tolerance) in methods_at(SINGLE_METHODS, [1e-6, 1e-9]) {
             let run = run_by(&sled, (method, tolerance), start(), 5.0);
             let asked = format!("{method} {tolerance:e} {v} {w}");
             let certificate = run.verify(0).expect("a certificate");

@@ -2,8 +2,7 @@
 
 use super::{PI, state};
 use lagrange_core::prelude::*;
-use lagrange_tests::fuzz::METHODS;
-use lagrange_tests::{agree, certified, root, run_by, runge_kutta, times};
+use lagrange_tests::{METHODS, agree, certified, methods_at, root, run_by, runge_kutta, times};
 
 /// A motion in one coordinate from a position and a velocity.
 fn moved(
@@ -371,17 +370,15 @@ fn atoms_do_not_pass_through_one_another() {
     for size in [1e-2, 3e-3, 1e-4] {
         let atoms = Atoms { depth: 1.0, size };
         let expected = 3.0 + size * (100.0 - turned);
-        for method in METHODS {
-            for tolerance in [1e-6, 1e-9] {
-                let simulation = Simulation::new(&atoms).method(method).tolerance(tolerance);
-                let found = simulation.run(state(&[3.0], &[-1.0]), 0.0..6.0);
-                let found = found.expect("runs");
-                let far = (found.final_state().q[0] - expected).abs();
-                assert!(
-                    far < 1e3 * tolerance + 1e-7,
-                    "{method:?} {tolerance:e} {size}: {far:e}"
-                );
-            }
+        for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-9]) {
+            let simulation = Simulation::new(&atoms).method(method).tolerance(tolerance);
+            let found = simulation.run(state(&[3.0], &[-1.0]), 0.0..6.0);
+            let found = found.expect("runs");
+            let far = (found.final_state().q[0] - expected).abs();
+            assert!(
+                far < 1e3 * tolerance + 1e-7,
+                "{method:?} {tolerance:e} {size}: {far:e}"
+            );
         }
     }
 }
@@ -409,17 +406,15 @@ fn quotients_are_followed_however_narrow_they_are() {
             width,
             blow: 0.5,
         };
-        for method in METHODS {
-            for tolerance in [1e-6, 1e-9] {
-                let simulation = Simulation::new(&thorn).method(method).tolerance(tolerance);
-                let found = simulation.run(state(&[-5.0], &[1.0]), 0.0..20.0);
-                let v = found.expect("runs").final_state().v[0];
-                let far = (v + 0.5).abs();
-                assert!(
-                    far < 1e3 * tolerance + width,
-                    "{method:?} {tolerance:e} {width}: {v}"
-                );
-            }
+        for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-9]) {
+            let simulation = Simulation::new(&thorn).method(method).tolerance(tolerance);
+            let found = simulation.run(state(&[-5.0], &[1.0]), 0.0..20.0);
+            let v = found.expect("runs").final_state().v[0];
+            let far = (v + 0.5).abs();
+            assert!(
+                far < 1e3 * tolerance + width,
+                "{method:?} {tolerance:e} {width}: {v}"
+            );
         }
     }
 }

@@ -2,8 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::fuzz::METHODS;
-use lagrange_tests::{agree, certified, event, run_by};
+use lagrange_tests::{METHODS, agree, certified, event, run_by};
 
 /// A ball bounces in air whose drag is quadratic.
 #[derive(Lagrangian, Clone, Debug)]
@@ -43,8 +42,8 @@ fn drag_is_against_the_motion_after_a_rebound_too() {
     let rise = (up / limit).atan() / pace;
     let apex = (1.0 + (up / limit).powi(2)).ln() / (2.0 * ball.drag);
     let (again, _) = fall(apex);
-    for method in METHODS.map(|method| method.to_string()) {
-        let motion = run_by(&ball, (&method, 1e-10), ball.at(Ball::DROP), 2.0);
+    for method in METHODS {
+        let motion = run_by(&ball, (method, 1e-10), ball.at(Ball::DROP), 2.0);
         let mut impacts = motion
             .events()
             .iter()
@@ -52,7 +51,7 @@ fn drag_is_against_the_motion_after_a_rebound_too() {
         let mut next = || impacts.next().map_or(f64::NAN, |e| e.time);
         agree("first", next(), first, 1e-8);
         agree("second", next(), first + rise + again, 1e-8);
-        certified(&method, &motion);
+        certified(method, &motion);
     }
 }
 
@@ -90,14 +89,14 @@ fn the_speed_of_a_slip_is_its_size_on_either_side() {
         fades: 0.35,
         speed: 2.6,
     };
-    for method in METHODS.map(|method| method.to_string()) {
-        let motion = run_by(&block, (&method, 1e-9), block.at(Block::GO), 1.0);
+    for method in METHODS {
+        let motion = run_by(&block, (method, 1e-9), block.at(Block::GO), 1.0);
         let turn = event(&motion, "grip", "reverses");
         let slip = turn.v_after(Block::X) - block.belt;
         let share = block.fast + (block.still - block.fast) * (slip / block.fades).exp();
         let grip = turn.force_after(Block::GRIP);
         agree("grip", grip, block.load * share, 1e-12);
-        certified(&method, &motion);
+        certified(method, &motion);
     }
 }
 
@@ -141,14 +140,14 @@ fn an_impact_has_the_coefficients_of_where_it_is() {
     let restitution = throw.there - throw.softens * (time - 0.1);
     let fall = throw.gravity * time;
     let press = (1.0 + restitution) * fall;
-    for method in METHODS.map(|method| method.to_string()) {
-        let motion = run_by(&throw, (&method, 1e-10), throw.at(Throw::THROW), 0.7);
+    for method in METHODS {
+        let motion = run_by(&throw, (method, 1e-10), throw.at(Throw::THROW), 0.7);
         let impact = event(&motion, "ground", "impact");
         agree("time", impact.time, time, 1e-9);
         agree("rise", impact.v_after(Throw::Y), restitution * fall, 1e-8);
         let rest = throw.speed - throw.rough * press;
         agree("speed", impact.v_after(Throw::X), rest, 1e-8);
-        certified(&method, &motion);
+        certified(method, &motion);
     }
 }
 
@@ -194,12 +193,12 @@ fn a_force_that_carries_friction_passes_zero_with_all_others() {
         }
         t += 4000.0 * h;
     }
-    for method in METHODS.map(|method| method.to_string()) {
-        let motion = run_by(&rope, (&method, 1e-10), rope.at(Rope::GO), t);
+    for method in METHODS {
+        let motion = run_by(&rope, (method, 1e-10), rope.at(Rope::GO), t);
         let State { q, v, .. } = motion.final_state();
         agree("place", q[0], y[0], 1e-7);
         agree("speed", v[0], y[1], 1e-8);
-        certified(&method, &motion);
+        certified(method, &motion);
     }
 }
 
@@ -218,10 +217,10 @@ struct Brake {
 #[test]
 fn a_brake_that_lets_go_has_held_until_then() {
     let brake = Brake { release: 0.8 };
-    for method in METHODS.map(|method| method.to_string()) {
-        let motion = run_by(&brake, (&method, 1e-9), state(&[0.0], &[0.0]), 2.0);
+    for method in METHODS {
+        let motion = run_by(&brake, (method, 1e-9), state(&[0.0], &[0.0]), 2.0);
         agree("place", motion.final_state().q[0], 2.0 * 1.2 * 1.2, 1e-8);
-        certified(&method, &motion);
+        certified(method, &motion);
     }
 }
 
@@ -271,10 +270,10 @@ fn a_bound_is_reached_by_a_blow() {
     let back = -slide.bounce * q[1];
     let left = 0.4;
     let expected = slide.stroke + back * left + slide.most * left * left / 2.0;
-    for method in METHODS.map(|method| method.to_string()) {
+    for method in METHODS {
         let start = state(&[0.0], &[2.0]);
-        let motion = run_by(&slide, (&method, 1e-10), start, time + left);
+        let motion = run_by(&slide, (method, 1e-10), start, time + left);
         agree("place", motion.final_state().q[0], expected, 1e-8);
-        certified(&method, &motion);
+        certified(method, &motion);
     }
 }

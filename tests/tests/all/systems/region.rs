@@ -1,7 +1,9 @@
 //! Contacts limited to a region: a table with an edge, a wall with a hole, two tables in a row.
 
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, certified, run, run_by};
+use lagrange_tests::{
+    METHODS, SINGLE_METHODS, TOLERANCES, agree, certified, methods_at, run, run_by,
+};
 
 const G: f64 = 9.81;
 
@@ -82,13 +84,7 @@ fn words(list: &[(&'static str, &str)]) -> Vec<(&'static str, String)> {
 
 #[test]
 fn a_block_slides_off_a_table_onto_the_floor() {
-    for method in [
-        Method::Taylor,
-        Method::DormandPrince853,
-        Method::DormandPrince54,
-        Method::Verner98,
-        Method::Radau5,
-    ] {
+    for method in SINGLE_METHODS {
         let trajectory = Simulation::new(&TABLE)
             .tolerance(1e-12)
             .method(method)
@@ -286,22 +282,20 @@ fn a_wheel_climbs_a_kerb_and_stays_on_top() {
         let about = j + m * r * r;
         let rate = (j + m * r * (r - h)) * speed / (r * about);
         let left = r * (rate * rate - 2.0 * m * G * h / about).sqrt();
-        for method in ["auto", "dop853", "dopri5", "verner98", "radau5"] {
-            for tolerance in [1e-6, 1e-9, 1e-12] {
-                let start = State::new(vec![0.0, r, 0.0], vec![speed, 0.0, speed / r]);
-                let run = run_by(&kerb, (method, tolerance), start, 1.5);
-                let what = format!("{speed} by {method} at {tolerance:e}");
-                assert!(
-                    run.final_mode().closed(Kerb::PAVEMENT),
-                    "{what}: {:?}",
-                    story(&run)
-                );
-                assert!(run.final_mode().sticks(Kerb::ON_PAVEMENT), "{what}");
-                let end = run.final_state();
-                let bound = (100.0 * tolerance).max(1e-11);
-                agree(&what, end.v(Kerb::X), left, bound);
-                agree(&what, end.q(Kerb::Y), r + h, bound);
-            }
+        for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+            let start = State::new(vec![0.0, r, 0.0], vec![speed, 0.0, speed / r]);
+            let run = run_by(&kerb, (method, tolerance), start, 1.5);
+            let what = format!("{speed} by {method} at {tolerance:e}");
+            assert!(
+                run.final_mode().closed(Kerb::PAVEMENT),
+                "{what}: {:?}",
+                story(&run)
+            );
+            assert!(run.final_mode().sticks(Kerb::ON_PAVEMENT), "{what}");
+            let end = run.final_state();
+            let bound = (100.0 * tolerance).max(1e-11);
+            agree(&what, end.v(Kerb::X), left, bound);
+            agree(&what, end.q(Kerb::Y), r + h, bound);
         }
     }
 }
@@ -344,16 +338,14 @@ fn a_mark_where_regions_meet_is_written_once() {
     let before: f64 = 1.6 / radius;
     let turned = before * (2.0 * radius - kerb) / (2.0 * radius);
     let after = (turned * turned - G * kerb / (radius * radius)).sqrt();
-    for method in ["taylor", "dop853", "dopri5", "verner98", "radau5"] {
-        for tolerance in [1e-4, 1e-7, 1e-10, 1e-12] {
-            let asked = format!("{method} at {tolerance:e}");
-            let start = super::state(&[-1.0, radius, 0.0], &[1.6, 0.0, before]);
-            let run = run_by(&hoop, (method, tolerance), start, 1.2);
-            let marks = run.events().iter().filter(|e| e.kind == EventKind::Mark);
-            assert_eq!(marks.count(), 1, "{asked}");
-            let end = run.final_state();
-            agree(&asked, end.v(Hoop::THETA) / after, 1.0, 10.0 * tolerance);
-        }
+    for (method, tolerance) in methods_at(SINGLE_METHODS, [1e-4, 1e-7, 1e-10, 1e-12]) {
+        let asked = format!("{method} at {tolerance:e}");
+        let start = super::state(&[-1.0, radius, 0.0], &[1.6, 0.0, before]);
+        let run = run_by(&hoop, (method, tolerance), start, 1.2);
+        let marks = run.events().iter().filter(|e| e.kind == EventKind::Mark);
+        assert_eq!(marks.count(), 1, "{asked}");
+        let end = run.final_state();
+        agree(&asked, end.v(Hoop::THETA) / after, 1.0, 10.0 * tolerance);
     }
 }
 
@@ -378,20 +370,18 @@ fn a_surface_that_touches_the_edge_of_another_takes_over() {
         gravity: 10.0,
         radius: 0.4,
     };
-    for method in ["taylor", "dopri5", "dop853", "verner98", "radau5"] {
-        for tolerance in [1e-6, 1e-9, 1e-12] {
-            for speed in [0.3, 0.7, 1.3, 1.9, 2.5] {
-                let asked = format!("{method} {tolerance:e} {speed}");
-                let start = State::new(vec![-0.31, 0.0], vec![speed, 0.0]);
-                let motion = run_by(&scene, (method, tolerance), start, 0.31 / speed + 1.0);
-                let stays = speed * speed < 4.0;
-                let after = motion.sampler().at(0.31 / speed + 1e-3).expect("beyond");
-                assert_eq!(after.mode.closed(Brow::HILL), stays, "{asked}");
-                assert!(!after.mode.closed(Brow::TRACK), "{asked}");
-                let lost = motion.events().last().expect("an event");
-                let cos = (2.0 + speed * speed / 4.0).min(3.0) / 3.0;
-                agree(&asked, lost.q(Brow::Y), 0.4 * (cos - 1.0), 10.0 * tolerance);
-            }
+    for (method, tolerance) in methods_at(SINGLE_METHODS, TOLERANCES) {
+        for speed in [0.3, 0.7, 1.3, 1.9, 2.5] {
+            let asked = format!("{method} {tolerance:e} {speed}");
+            let start = State::new(vec![-0.31, 0.0], vec![speed, 0.0]);
+            let motion = run_by(&scene, (method, tolerance), start, 0.31 / speed + 1.0);
+            let stays = speed * speed < 4.0;
+            let after = motion.sampler().at(0.31 / speed + 1e-3).expect("beyond");
+            assert_eq!(after.mode.closed(Brow::HILL), stays, "{asked}");
+            assert!(!after.mode.closed(Brow::TRACK), "{asked}");
+            let lost = motion.events().last().expect("an event");
+            let cos = (2.0 + speed * speed / 4.0).min(3.0) / 3.0;
+            agree(&asked, lost.q(Brow::Y), 0.4 * (cos - 1.0), 10.0 * tolerance);
         }
     }
 }
@@ -489,7 +479,7 @@ fn a_region_with_a_kink_does_not_disturb_what_happens_there() {
         ] {
             let motion = run_by(&slat, how, start.clone(), tips + 0.05);
             let lost = lagrange_tests::event(&motion, "table", "lost");
-            lagrange_tests::agree(&format!("{how:?} from {x}"), lost.time, tips, 10.0 * how.1);
+            lagrange_tests::agree(format!("{how:?} from {x}"), lost.time, tips, 10.0 * how.1);
             let tilt = motion.final_state().q[2];
             assert!(tilt > 1e-3, "{how:?} from {x}: tilted by {tilt}");
         }
@@ -518,12 +508,10 @@ fn what_passes_below_an_edge_is_certified() {
         edge: 1.0,
     };
     let start = State::new(vec![0.0, 0.1], vec![5.0, 0.0]);
-    for method in lagrange_tests::fuzz::METHODS.map(|method| method.to_string()) {
-        for tolerance in [1e-6, 1e-9, 1e-12] {
-            let motion = run_by(&scene, (&method, tolerance), start.clone(), 0.6);
-            assert!(motion.events().is_empty(), "{method}");
-            certified(&method, &motion);
-        }
+    for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+        let motion = run_by(&scene, (method, tolerance), start.clone(), 0.6);
+        assert!(motion.events().is_empty(), "{method}");
+        certified(method, &motion);
     }
 }
 
@@ -557,17 +545,15 @@ fn what_reaches_a_surface_at_its_edge_passes_by_it() {
         let leaves = 2.0 * way / speed;
         let [vx, vy] = [speed * slope.cos(), -speed * slope.sin()];
         let end = [vx * flies, vy * flies - G * flies * flies / 2.0];
-        for method in ["auto", "dop853", "dopri5", "verner98", "radau5"] {
-            for tolerance in [1e-6, 1e-9, 1e-12] {
-                let what = format!("{ramp:?} by {method} at {tolerance:e}");
-                let start = ramp.at(Ramp::ABOVE);
-                let motion = run_by(&ramp, (method, tolerance), start, leaves + flies);
-                assert_eq!(story(&motion), words(&[("ramp", "lost")]), "{what}");
-                for (q, expected) in motion.final_state().q.iter().zip(end) {
-                    agree(&what, *q, expected, 20.0 * tolerance.max(1e-11));
-                }
-                certified(&what, &motion);
+        for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+            let what = format!("{ramp:?} by {method} at {tolerance:e}");
+            let start = ramp.at(Ramp::ABOVE);
+            let motion = run_by(&ramp, (method, tolerance), start, leaves + flies);
+            assert_eq!(story(&motion), words(&[("ramp", "lost")]), "{what}");
+            for (q, expected) in motion.final_state().q.iter().zip(end) {
+                agree(&what, *q, expected, 20.0 * tolerance.max(1e-11));
             }
+            certified(&what, &motion);
         }
     }
 }

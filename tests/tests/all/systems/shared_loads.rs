@@ -2,7 +2,10 @@
 
 use super::{PI, state};
 use lagrange_core::prelude::*;
-use lagrange_tests::{Random, agree, certified, event, root, run_by, times, words};
+use lagrange_tests::{
+    METHODS, Random, SINGLE_METHODS, TOLERANCES, agree, certified, event, methods_at, root, run_by,
+    times, words,
+};
 
 /// A sledge on two rough runners under a load that comes and goes.
 #[derive(Lagrangian, Clone, Debug)]
@@ -35,17 +38,18 @@ fn a_load_that_is_too_large_for_a_moment_makes_it_slip() {
             mu: 0.4,
             load,
         };
-        for method in ["taylor", "dop853", "verner98", "radau5", "rk4:0.01"] {
-            for tolerance in [1e-6, 1e-12] {
-                let start = state(&[0.0; 3], &[0.0; 3]);
-                let motion = run_by(&scene, (method, tolerance), start, 2.0);
-                let asked = format!("{load} {method} {tolerance:e}");
-                assert!(!words(&motion).is_empty(), "{asked}");
-                for grip in ["rear_grip", "front_grip"] {
-                    let time = event(&motion, grip, "slips").time;
-                    agree(&asked, load * time.sin().powi(8), 4.0, 20.0 * tolerance);
-                    assert!(time < 0.5 * core::f64::consts::PI, "{asked}");
-                }
+        for (method, tolerance) in methods_at(
+            ["taylor", "dop853", "verner98", "radau5", "rk4:0.01"],
+            [1e-6, 1e-12],
+        ) {
+            let start = state(&[0.0; 3], &[0.0; 3]);
+            let motion = run_by(&scene, (method, tolerance), start, 2.0);
+            let asked = format!("{load} {method} {tolerance:e}");
+            assert!(!words(&motion).is_empty(), "{asked}");
+            for grip in ["rear_grip", "front_grip"] {
+                let time = event(&motion, grip, "slips").time;
+                agree(&asked, load * time.sin().powi(8), 4.0, 20.0 * tolerance);
+                assert!(time < 0.5 * core::f64::consts::PI, "{asked}");
             }
         }
         let scene = Sledge {
@@ -136,37 +140,35 @@ fn a_mat_lies_flat() {
         fall + slides / braking,
         speed * fall + slides * slides / (2.0 * braking),
     );
-    for method in ["auto", "dop853", "dopri5", "verner98", "radau5"] {
-        for tolerance in [1e-6, 1e-9, 1e-12] {
-            let what = format!("{method} at {tolerance:e}");
-            let start = |y, v, tilt: [f64; 3]| {
-                let q = [&[0.0, y], &tilt[..]].concat();
-                State::new(q, vec![v, 0.0, 0.0, 0.0, 0.0])
-            };
-            let run = run_by(
-                &mat,
-                (method, tolerance),
-                start(height, speed, [0.0; 3]),
-                4.0,
-            );
-            let bound = (100.0 * tolerance).max(1e-11);
-            let (sticks, end) = (event(&run, "grip[0]", "sticks"), run.final_state());
-            agree(&what, sticks.time, rest, bound);
-            agree(&what, end.q(Mat::X), x, bound);
-            let run = run_by(
-                &mat,
-                (method, tolerance),
-                start(0.4, 0.5, [-0.2, 0.3, 0.1]),
-                4.0,
-            );
-            let end = run.final_state();
-            for q in &end.q[1..] {
-                agree(&what, *q, 0.0, bound);
-            }
-            let last = run.events().last().expect("it lands");
-            let loads = (0..4).map(|k| last.force_after(Mat::FLOOR[k]));
-            agree(&what, loads.sum(), 3.0 * mat.mass * mat.gravity, bound);
+    for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+        let what = format!("{method} at {tolerance:e}");
+        let start = |y, v, tilt: [f64; 3]| {
+            let q = [&[0.0, y], &tilt[..]].concat();
+            State::new(q, vec![v, 0.0, 0.0, 0.0, 0.0])
+        };
+        let run = run_by(
+            &mat,
+            (method, tolerance),
+            start(height, speed, [0.0; 3]),
+            4.0,
+        );
+        let bound = (100.0 * tolerance).max(1e-11);
+        let (sticks, end) = (event(&run, "grip[0]", "sticks"), run.final_state());
+        agree(&what, sticks.time, rest, bound);
+        agree(&what, end.q(Mat::X), x, bound);
+        let run = run_by(
+            &mat,
+            (method, tolerance),
+            start(0.4, 0.5, [-0.2, 0.3, 0.1]),
+            4.0,
+        );
+        let end = run.final_state();
+        for q in &end.q[1..] {
+            agree(&what, *q, 0.0, bound);
         }
+        let last = run.events().last().expect("it lands");
+        let loads = (0..4).map(|k| last.force_after(Mat::FLOOR[k]));
+        agree(&what, loads.sum(), 3.0 * mat.mass * mat.gravity, bound);
     }
 }
 
@@ -243,14 +245,12 @@ fn a_load_that_reverses_brakes_on_the_other_side() {
         (3.3, 2.0 * PI - 0.7_f64.asin(), "front_pad"),
     ] {
         let omega = spin * disc.mu * disc.radius * disc.load / (disc.inertia * disc.rate);
-        for method in ["auto", "taylor", "dop853"] {
-            for tolerance in [1e-6, 1e-9, 1e-12] {
-                let start = state(&[0.0; 2], &[0.0, omega]);
-                let motion = run_by(&disc, (method, tolerance), start, 3.0);
-                let asked = format!("{spin} {method} {tolerance:e}");
-                let time = event(&motion, pad, "sticks").time;
-                agree(&asked, disc.rate * time, angle, 100.0 * tolerance);
-            }
+        for (method, tolerance) in methods_at(["auto", "taylor", "dop853"], TOLERANCES) {
+            let start = state(&[0.0; 2], &[0.0, omega]);
+            let motion = run_by(&disc, (method, tolerance), start, 3.0);
+            let asked = format!("{spin} {method} {tolerance:e}");
+            let time = event(&motion, pad, "sticks").time;
+            agree(&asked, disc.rate * time, angle, 100.0 * tolerance);
         }
     }
 }
@@ -292,15 +292,13 @@ fn what_lies_on_two_of_its_feet_lies_on_all() {
         };
         let (fall, until) = (0.5, 1.8);
         let slides = 6.0 - scene.mu * (scene.gravity * until + fall);
-        for method in ["taylor", "dop853", "dopri5", "verner98", "radau5"] {
-            for tolerance in [1e-6, 1e-9, 1e-12] {
-                let start = state(&[0.0, 0.6, tilt], &[6.0, -fall, 0.4]);
-                let motion = run_by(&scene, (method, tolerance), start, until);
-                let asked = format!("{place:?} {method} {tolerance:e}");
-                let speed = motion.final_state().v[0];
-                agree(&asked, speed, slides, (1e3 * tolerance).max(1e-10));
-                assert_eq!(motion.final_mode().contacts, [true; 4], "{asked}");
-            }
+        for (method, tolerance) in methods_at(SINGLE_METHODS, TOLERANCES) {
+            let start = state(&[0.0, 0.6, tilt], &[6.0, -fall, 0.4]);
+            let motion = run_by(&scene, (method, tolerance), start, until);
+            let asked = format!("{place:?} {method} {tolerance:e}");
+            let speed = motion.final_state().v[0];
+            agree(&asked, speed, slides, (1e3 * tolerance).max(1e-10));
+            assert_eq!(motion.final_mode().contacts, [true; 4], "{asked}");
         }
     }
 }
@@ -553,10 +551,7 @@ fn frictions_whose_directions_turn_hold_together_as_long_as_they_can() {
         let speed = 0.5 * side - 2.0 + 2.0 * up;
         let first = -0.5 * (1.0 - up) + (0.5 * side + 2.0 * up) * (upright - begin) - 2.0 * side;
         let second = (speed - 2.0) * (end - upright) - 0.5 * (end.sin() - 1.0) - 2.0 * end.cos();
-        for by in ["auto", "dop853", "verner98", "dopri5", "radau5"]
-            .iter()
-            .flat_map(|m| [1e-6, 1e-9, 1e-12].map(|x| (*m, x)))
-        {
+        for by in methods_at(METHODS, TOLERANCES) {
             let what = format!("{rate} rad/s by {by:?}");
             let run = run_by(&plate, by, plate.at(Plate::LEANS), (end - 0.2) / rate);
             let bound = (100.0 * by.1).max(1e-11);
@@ -647,16 +642,15 @@ fn a_beam_tips_over_a_support_that_moves() {
             rate: random.between(0.2, 0.6),
         };
         let tips = (1.0 - beam.arm) / beam.rate;
-        for method in ["auto", "dop853", "verner98", "radau5"] {
-            for tolerance in [1e-6, 1e-9, 1e-12] {
-                let start = state(&[0.0; 2], &[0.0; 2]);
-                let motion = run_by(&beam, (method, tolerance), start, tips + 0.2);
-                let what = format!("{beam:?} by {method} at {tolerance:e}");
-                for support in ["left", "middle"] {
-                    agree(&what, event(&motion, support, "lost").time, tips, 1e-7);
-                }
-                certified(&what, &motion);
+        for (method, tolerance) in methods_at(["auto", "dop853", "verner98", "radau5"], TOLERANCES)
+        {
+            let start = state(&[0.0; 2], &[0.0; 2]);
+            let motion = run_by(&beam, (method, tolerance), start, tips + 0.2);
+            let what = format!("{beam:?} by {method} at {tolerance:e}");
+            for support in ["left", "middle"] {
+                agree(&what, event(&motion, support, "lost").time, tips, 1e-7);
             }
+            certified(&what, &motion);
         }
     }
 }
@@ -691,18 +685,17 @@ fn what_holds_by_a_ratio_that_changes_lets_go_where_both_are_overcome() {
         let excess =
             |t: f64| lever.rise * t.powi(3) - lever.own - lever.far * (1.0 + lever.growth * t);
         let overcome = root(excess, 0.0, 4.0);
-        for method in ["auto", "dop853", "verner98", "radau5"] {
-            for tolerance in [1e-6, 1e-9, 1e-12] {
-                let motion = run_by(&lever, (method, tolerance), state(&[0.0], &[0.0]), 4.0);
-                let what = format!("{lever:?} by {method} at {tolerance:e}");
-                for friction in ["pad", "end"] {
-                    agree(
-                        &what,
-                        event(&motion, friction, "slips").time,
-                        overcome,
-                        1e-7,
-                    );
-                }
+        for (method, tolerance) in methods_at(["auto", "dop853", "verner98", "radau5"], TOLERANCES)
+        {
+            let motion = run_by(&lever, (method, tolerance), state(&[0.0], &[0.0]), 4.0);
+            let what = format!("{lever:?} by {method} at {tolerance:e}");
+            for friction in ["pad", "end"] {
+                agree(
+                    &what,
+                    event(&motion, friction, "slips").time,
+                    overcome,
+                    1e-7,
+                );
             }
         }
     }

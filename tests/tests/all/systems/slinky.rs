@@ -3,8 +3,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::fuzz::METHODS;
-use lagrange_tests::{Random, agree, certified, run_by};
+use lagrange_tests::{METHODS, Random, agree, certified, methods_at, run_by};
 
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
@@ -46,33 +45,31 @@ fn a_slinky_collapses_from_the_top() {
         let (drop, first) = (centre(&start.q), start.q[5]);
         // Closed, it is 2.5 widths from its centre to its end: that long it falls before the end has been reached.
         let time = (2.0 * (drop - first) / slinky.gravity).sqrt();
-        for method in METHODS {
-            for tolerance in [1e-6, 1e-9] {
-                let by = (&*method.to_string(), tolerance);
-                let trajectory = run_by(&slinky, by, start.clone(), 1.5 * time);
-                let end = trajectory.final_state();
-                let fallen = slinky.gravity * (1.5 * time).powi(2) / 2.0;
-                agree("centre", centre(&end.q), drop - fallen, 100.0 * tolerance);
-                let closed = trajectory.final_mode().contacts.iter();
-                assert_eq!(
-                    closed.filter(|closed| **closed).count(),
-                    5,
-                    "{method} {slinky:?}"
-                );
-                agree(
-                    "speed",
-                    end.v[0],
-                    -slinky.gravity * 1.5 * time,
-                    100.0 * tolerance,
-                );
-                agree("one body", end.v[5], end.v[0], 1e-12);
-                let early = trajectory
-                    .sampler()
-                    .at(0.2 * time)
-                    .expect("an instant of the run");
-                assert!((early.q(Slinky::Y[5]) - first).abs() < 1e-3 * (drop - first));
-                certified(format!("{method} {tolerance:e} {slinky:?}"), &trajectory);
-            }
+        for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-9]) {
+            let by = (method, tolerance);
+            let trajectory = run_by(&slinky, by, start.clone(), 1.5 * time);
+            let end = trajectory.final_state();
+            let fallen = slinky.gravity * (1.5 * time).powi(2) / 2.0;
+            agree("centre", centre(&end.q), drop - fallen, 100.0 * tolerance);
+            let closed = trajectory.final_mode().contacts.iter();
+            assert_eq!(
+                closed.filter(|closed| **closed).count(),
+                5,
+                "{method} {slinky:?}"
+            );
+            agree(
+                "speed",
+                end.v[0],
+                -slinky.gravity * 1.5 * time,
+                100.0 * tolerance,
+            );
+            agree("one body", end.v[5], end.v[0], 1e-12);
+            let early = trajectory
+                .sampler()
+                .at(0.2 * time)
+                .expect("an instant of the run");
+            assert!((early.q(Slinky::Y[5]) - first).abs() < 1e-3 * (drop - first));
+            certified(format!("{method} {tolerance:e} {slinky:?}"), &trajectory);
         }
     }
 }

@@ -2,7 +2,9 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, all_agree, closure, event, run, run_by, words};
+use lagrange_tests::{
+    SINGLE_METHODS, TOLERANCES, agree, all_agree, closure, event, methods_at, run, run_by, words,
+};
 
 /// A bead between two plates: the plane pulls as well as pushes, friction goes with |λ|.
 #[derive(Lagrangian, Clone, Debug)]
@@ -250,8 +252,7 @@ struct Tilting {
 /// time, its own acceleration being a rounding, both have to know.
 #[test]
 fn a_slip_that_begins_smoothly_takes_the_branches_of_its_size_with_it() {
-    let methods = ["taylor", "dop853", "dopri5", "verner98", "radau5"].into_iter();
-    for method in methods.flat_map(|m| [(m, 1e-6), (m, 1e-9), (m, 1e-12)]) {
+    for (method, tolerance) in methods_at(SINGLE_METHODS, TOLERANCES) {
         for k in 0..12 {
             let scene = Tilting {
                 side: if k % 2 == 0 { 1.0 } else { -1.0 },
@@ -263,9 +264,9 @@ fn a_slip_that_begins_smoothly_takes_the_branches_of_its_size_with_it() {
             };
             let slips = 0.4_f64.atan() / scene.rate;
             let start = state(&[0.0; 2], &[0.0; 2]);
-            let motion = run_by(&scene, method, start, 1.3 * slips);
-            let asked = format!("{method:?} {scene:?}");
-            let error = method.1.max(1e-11);
+            let motion = run_by(&scene, (method, tolerance), start, 1.3 * slips);
+            let asked = format!("{method} {tolerance:e} {scene:?}");
+            let error = tolerance.max(1e-11);
             agree(&asked, event(&motion, "grip", "slips").time, slips, error);
             assert_eq!(motion.final_state().v[0].signum(), scene.side, "{asked}");
         }

@@ -3,7 +3,10 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{Random, agree, all_agree, root, run_by, runge_kutta, words};
+use lagrange_tests::{
+    Random, SINGLE_METHODS, TOLERANCES, agree, all_agree, methods_at, root, run_by, runge_kutta,
+    words,
+};
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 /// A stool on four feet slides and turns; `tilt` are its small turns about its own axes.
@@ -139,29 +142,27 @@ fn feet_share_the_load_of_what_slides_on_them() {
             time += STEP;
         }
         unloaded += usize::from(lifts.is_some());
-        for method in ["taylor", "dop853", "verner98", "radau5", "dopri5"] {
-            for tolerance in [1e-6, 1e-9, 1e-12] {
-                let asked = format!("case {case} by {method} at {tolerance:e}");
-                let v = [&rates[..], &[0.0; 3]].concat();
-                let end = time + if lifts.is_some() { 0.05 } else { 0.0 };
-                let run = run_by(&stool, (method, tolerance), state(&[0.0; 6], &v), end);
-                let bound = 200.0 * tolerance.max(1e-12);
-                let at = run.sampler().at(time).expect("inside");
-                all_agree(&asked, &at.state.q[..3], &now[..3], bound);
-                all_agree(&asked, &at.state.v[..3], &now[3..], bound);
-                let (_, loads) = stool.balance(&now);
-                let found = [0, 1, 2, 3].map(|k| at.force(Stool::FOOT[k]));
-                all_agree(&asked, &found, &loads, 100.0 * bound);
-                if let Some((foot, instant)) = lifts {
-                    let name = format!("foot[{foot}]");
-                    let mut events = run.events().iter();
-                    let event =
-                        events.find(|e| e.subject.name(run.description()) == name && e.time > 0.0);
-                    let event = event.unwrap_or_else(|| panic!("{asked}: {:?}", words(&run)));
-                    agree(&asked, event.time, instant, 100.0 * bound);
-                }
-                assert!(run.verify(0).expect("a certificate").holds(), "{asked}");
+        for (method, tolerance) in methods_at(SINGLE_METHODS, TOLERANCES) {
+            let asked = format!("case {case} by {method} at {tolerance:e}");
+            let v = [&rates[..], &[0.0; 3]].concat();
+            let end = time + if lifts.is_some() { 0.05 } else { 0.0 };
+            let run = run_by(&stool, (method, tolerance), state(&[0.0; 6], &v), end);
+            let bound = 200.0 * tolerance.max(1e-12);
+            let at = run.sampler().at(time).expect("inside");
+            all_agree(&asked, &at.state.q[..3], &now[..3], bound);
+            all_agree(&asked, &at.state.v[..3], &now[3..], bound);
+            let (_, loads) = stool.balance(&now);
+            let found = [0, 1, 2, 3].map(|k| at.force(Stool::FOOT[k]));
+            all_agree(&asked, &found, &loads, 100.0 * bound);
+            if let Some((foot, instant)) = lifts {
+                let name = format!("foot[{foot}]");
+                let mut events = run.events().iter();
+                let event =
+                    events.find(|e| e.subject.name(run.description()) == name && e.time > 0.0);
+                let event = event.unwrap_or_else(|| panic!("{asked}: {:?}", words(&run)));
+                agree(&asked, event.time, instant, 100.0 * bound);
             }
+            assert!(run.verify(0).expect("a certificate").holds(), "{asked}");
         }
     }
     assert!(unloaded > 2, "only {unloaded} lose the load of a foot");

@@ -2,8 +2,10 @@
 
 use super::{PI, state};
 use lagrange_core::prelude::*;
-use lagrange_tests::fuzz::METHODS;
-use lagrange_tests::{agree, all_agree, certified, closure, event, root, run, run_by, words};
+use lagrange_tests::{
+    METHODS, TOLERANCES, agree, all_agree, certified, closure, event, methods_at, root, run,
+    run_by, words,
+};
 
 /// A bead on a circle in a plane that is inclined by `slope`, x downhill.
 #[derive(Lagrangian, Clone, Debug)]
@@ -406,31 +408,29 @@ fn what_a_wire_shares_with_a_wall_stays_within_its_friction() {
             mu: 0.1,
         };
         let leaves = (-0.1 * f64::abs(weight) / 10.0).acos();
-        for method in ["taylor", "dop853", "radau5"] {
-            for tolerance in [1e-6, 1e-12] {
-                let asked = format!("{weight} {lean} {method} {tolerance:e}");
-                let start = state(&[0.0; 2], &[0.0; 2]);
-                let motion = run_by(&scene, (method, tolerance), start, until);
-                if until < leaves {
-                    assert!(words(&motion).is_empty(), "{asked}: {:?}", words(&motion));
-                } else {
-                    for (item, word) in [("wall", "lost"), ("rub", "slips")] {
-                        let time = event(&motion, item, word).time;
-                        agree(&asked, time, leaves, 20.0 * tolerance);
-                    }
+        for (method, tolerance) in methods_at(["taylor", "dop853", "radau5"], [1e-6, 1e-12]) {
+            let asked = format!("{weight} {lean} {method} {tolerance:e}");
+            let start = state(&[0.0; 2], &[0.0; 2]);
+            let motion = run_by(&scene, (method, tolerance), start, until);
+            if until < leaves {
+                assert!(words(&motion).is_empty(), "{asked}: {:?}", words(&motion));
+            } else {
+                for (item, word) in [("wall", "lost"), ("rub", "slips")] {
+                    let time = event(&motion, item, word).time;
+                    agree(&asked, time, leaves, 20.0 * tolerance);
                 }
-                certified(&asked, &motion);
-                let mut sampler = motion.sampler();
-                for t in (0..16).map(|k| 0.1 * f64::from(k)).filter(|t| *t < until) {
-                    let now = sampler.at(t).expect("within the run");
-                    let least = scene.least_forces(10.0 * t.cos()).expect("it holds");
-                    let forces = [
-                        now.force(Pressed::WALL),
-                        now.force(Pressed::WIRE),
-                        now.force(Pressed::RUB),
-                    ];
-                    all_agree(&format!("{asked} at {t}"), &forces, &least, 1e-9);
-                }
+            }
+            certified(&asked, &motion);
+            let mut sampler = motion.sampler();
+            for t in (0..16).map(|k| 0.1 * f64::from(k)).filter(|t| *t < until) {
+                let now = sampler.at(t).expect("within the run");
+                let least = scene.least_forces(10.0 * t.cos()).expect("it holds");
+                let forces = [
+                    now.force(Pressed::WALL),
+                    now.force(Pressed::WIRE),
+                    now.force(Pressed::RUB),
+                ];
+                all_agree(format!("{asked} at {t}"), &forces, &least, 1e-9);
             }
         }
     }
@@ -463,36 +463,34 @@ fn a_wire_that_pulls_where_it_has_pushed_tells_nothing() {
         swing: 5.0,
         mu: 0.5,
     };
-    for method in METHODS {
-        for tolerance in [1e-6, 1e-9, 1e-12] {
-            let simulation = Simulation::new(&scene).method(method).tolerance(tolerance);
-            let motion = simulation
-                .run(state(&[0.0; 2], &[0.0; 2]), 0.0..6.0)
-                .unwrap();
-            assert!(
-                motion.events().is_empty(),
-                "{method} {tolerance:e}: {:?}",
-                words(&motion)
-            );
-            assert_eq!(motion.final_state().q, [0.0; 2]);
-            let mut sampler = motion.sampler();
-            for k in 0..=60 {
-                let t = 0.1 * f64::from(k);
-                let load = 2.0 + 5.0 * (2.0 * t).cos();
-                let least: f64 = 0.3 / 0.5;
-                let pushes = least.max(0.5 * load);
-                let wire = if pushes <= load {
-                    pushes
-                } else {
-                    (-least).min(load)
-                };
-                let instant = sampler.at(t).unwrap();
-                agree("wire", instant.force(Lying::WIRE), wire, 1e-7);
-                agree("floor", instant.force(Lying::FLOOR), load - wire, 1e-7);
-                agree("rub", instant.force(Lying::RUB), -0.3, 1e-7);
-            }
-            let certificate = motion.verify(0).unwrap();
-            assert!(certificate.holds(), "{method} {tolerance:e}");
+    for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+        let simulation = Simulation::new(&scene).method(method).tolerance(tolerance);
+        let motion = simulation
+            .run(state(&[0.0; 2], &[0.0; 2]), 0.0..6.0)
+            .unwrap();
+        assert!(
+            motion.events().is_empty(),
+            "{method} {tolerance:e}: {:?}",
+            words(&motion)
+        );
+        assert_eq!(motion.final_state().q, [0.0; 2]);
+        let mut sampler = motion.sampler();
+        for k in 0..=60 {
+            let t = 0.1 * f64::from(k);
+            let load = 2.0 + 5.0 * (2.0 * t).cos();
+            let least: f64 = 0.3 / 0.5;
+            let pushes = least.max(0.5 * load);
+            let wire = if pushes <= load {
+                pushes
+            } else {
+                (-least).min(load)
+            };
+            let instant = sampler.at(t).unwrap();
+            agree("wire", instant.force(Lying::WIRE), wire, 1e-7);
+            agree("floor", instant.force(Lying::FLOOR), load - wire, 1e-7);
+            agree("rub", instant.force(Lying::RUB), -0.3, 1e-7);
         }
+        let certificate = motion.verify(0).unwrap();
+        assert!(certificate.holds(), "{method} {tolerance:e}");
     }
 }

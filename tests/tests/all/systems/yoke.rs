@@ -3,8 +3,7 @@
 
 use super::{PI, state};
 use lagrange_core::prelude::*;
-use lagrange_tests::fuzz::METHODS;
-use lagrange_tests::{agree, certified, event, run_by, runge_kutta, words};
+use lagrange_tests::{METHODS, agree, certified, event, run_by, runge_kutta, words};
 
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
@@ -108,7 +107,7 @@ fn the_face_is_left_soon_after_the_pin_has_passed_its_middle() {
         let time = yoke.left_at([phi, rate]);
         for method in METHODS {
             let start = state(&[phi, c, 0.0], &[rate, -s * rate, 0.0]);
-            let trajectory = run_by(&yoke, (&*method.to_string(), 1e-9), start, 0.2);
+            let trajectory = run_by(&yoke, (method, 1e-9), start, 0.2);
             let first: Vec<String> = words(&trajectory).into_iter().take(2).collect();
             assert_eq!(
                 first,
