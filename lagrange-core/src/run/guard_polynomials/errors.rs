@@ -14,6 +14,16 @@ const OTHER_SIDE: f64 = 1e3;
 /// So much a guard of size 1 is off by rounding; see [`rounding`].
 pub(super) const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
+/// How far the polynomial of a guard is off at a part of the step.
+struct GuardError {
+    error: f64,
+    /// What is allowed but for rounding.
+    allowed: f64,
+    rounding: f64,
+    /// Whether the guard is on the other side of zero.
+    other_side: bool,
+}
+
 impl GuardPolynomials {
     /// How far the polynomials are off at part `s` of the step, in units of what is allowed by the tolerance and, of forces, by their blur;
     /// `dynamics` holds the values of the state there, `known` tells of a guard whether this is its root, and how large what makes it is at least.
@@ -27,25 +37,18 @@ impl GuardPolynomials {
         dynamics: &mut Dynamics<T>,
         mode: &Mode,
         s: f64,
-        [tolerance, blur]: [f64; 2],
+        allowed: [f64; 2],
         known: impl Fn(Guard) -> (bool, f64),
     ) -> f64 {
-        let mut worst = 0.0;
-        self.errors(
-            dynamics,
-            mode,
-            s,
-            [tolerance, blur],
-            known,
-            |error, allowed, rounding, other_side| {
-                let mut ratio = error / (allowed + rounding);
-                if other_side && error > rounding {
-                    ratio *= OTHER_SIDE;
-                }
-                worst = worse(worst, ratio);
-            },
-        );
-        worst
+        let ratio = |off: GuardError| {
+            let ratio = off.error / (off.allowed + off.rounding);
+            match off.other_side && off.error > off.rounding {
+                true => ratio * OTHER_SIDE,
+                false => ratio,
+            }
+        };
+        let errors = self.errors(dynamics, mode, s, allowed, known);
+        errors.map(ratio).fold(0.0, worse)
     }
 
     /// The same without what rounding explains: a guard that is a small difference of large numbers is off by as much however short
@@ -58,20 +61,12 @@ impl GuardPolynomials {
         tolerance: f64,
         known: impl Fn(Guard) -> (bool, f64),
     ) -> f64 {
-        let mut worst = 0.0_f64;
-        self.errors(
-            dynamics,
-            mode,
-            s,
-            [tolerance, 0.0],
-            known,
-            |error, allowed, rounding, _| worst = worst.max((error - rounding) / allowed),
-        );
-        worst
+        let errors = self.errors(dynamics, mode, s, [tolerance, 0.0], known);
+        let ratios = errors.map(|off| (off.error - off.rounding) / off.allowed);
+        ratios.fold(0.0, f64::max)
     }
 
-    /// Tells the error of every polynomial at part `s` of the step, what is allowed but for rounding, what rounding makes, and whether the guard
-    /// is on the other side of zero.
+    /// The errors of all polynomials at part `s` of the step.
     #[inline(always)]
     fn errors<T: Scalar>(
         &self,
@@ -80,26 +75,27 @@ impl GuardPolynomials {
         s: f64,
         [tolerance, blur]: [f64; 2],
         known: impl Fn(Guard) -> (bool, f64),
-        mut tell: impl FnMut(f64, f64, f64, bool),
-    ) {
+    ) -> impl Iterator<Item = GuardError> {
         if !self.watches.is_empty() {
             dynamics.report_value();
         }
-        for (index, (curve, c)) in (self.list.iter())
-            .zip(self.coefficients.chunks_exact(self.width))
-            .enumerate()
-        {
+        let dynamics = &*dynamics;
+        let curves = self.list.iter();
+        let curves = curves.zip(self.coefficients.chunks_exact(self.width));
+        curves.enumerate().map(move |(index, (curve, c))| {
             let (located, least) = known(curve.guard);
             let blur = if curve.guard.is_force() { blur } else { 0.0 };
             let allowed = allowance::<T>(curve.guard, tolerance, located).max(blur);
             let value = self.value(index, mode, dynamics);
             let found = if s == 1.0 { curve.sums.end } else { at(c, s) };
-            let size = size(value, c).max(least);
-            let other_side = !located && (found < 0.0) != (value < 0.0);
             let error = (found - value).abs();
-            let rounding = rounding(error, curve.guard, dynamics);
-            tell(error, allowed * size, rounding, other_side);
-        }
+            GuardError {
+                error,
+                allowed: allowed * size(value, c).max(least),
+                rounding: rounding(error, curve.guard, dynamics),
+                other_side: !located && (found < 0.0) != (value < 0.0),
+            }
+        })
     }
 }
 
