@@ -15,6 +15,7 @@ use crate::request::{
 use clap::ValueEnum;
 use lagrange_core::prelude::{Impacts, Method};
 use lagrange_core::system::Description;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeString, DeTable};
@@ -236,22 +237,17 @@ fn refused<K, T>(place: &Spanned<K>, found: Result<T, Refusal>) -> Result<T, Wro
 }
 
 fn tolerance(value: &Value) -> Result<f64, Wrong> {
-    match positive(value)? {
-        tolerance if TOLERANCES.contains(&tolerance) => Ok(tolerance),
-        _ => {
-            let reason = "a tolerance is between 1e-17 and 0.1";
-            Err((value.span().start, reason.to_owned()))
-        }
-    }
+    within(TOLERANCES, value, "a tolerance is between 1e-17 and 0.1")
 }
 
 fn error(value: &Value) -> Result<f64, Wrong> {
+    within(ERRORS, value, "an error is between 1e-15 and 0.1")
+}
+
+fn within(allowed: RangeInclusive<f64>, value: &Value, reason: &str) -> Result<f64, Wrong> {
     match positive(value)? {
-        error if ERRORS.contains(&error) => Ok(error),
-        _ => {
-            let reason = "an error is between 1e-15 and 0.1";
-            Err((value.span().start, reason.to_owned()))
-        }
+        number if allowed.contains(&number) => Ok(number),
+        _ => Err((value.span().start, reason.to_owned())),
     }
 }
 
@@ -306,19 +302,19 @@ fn picture(value: &Value) -> Result<PathBuf, Wrong> {
 }
 
 fn events(value: &Value, d: &'static Description) -> Result<Vec<String>, Wrong> {
-    let names = texts(value)?.into_iter();
-    let known = names.map(|(byte, name)| match event(name, d) {
-        Ok(_) => Ok(name.to_owned()),
-        Err(refusal) => Err((byte, refusal.to_string())),
-    });
-    known.collect()
+    known(value, |name| event(name, d).map(drop))
 }
 
 /// What a picture shows.
 fn shows(value: &Value, d: &Description) -> Result<Vec<String>, Wrong> {
+    known(value, |text| Show::new(text, d).map(drop))
+}
+
+/// The texts of a list, none of which is refused.
+fn known(value: &Value, judge: impl Fn(&str) -> Result<(), Refusal>) -> Result<Vec<String>, Wrong> {
     let texts = texts(value)?.into_iter();
-    let known = texts.map(|(byte, text)| match Show::new(text, d) {
-        Ok(_) => Ok(text.to_owned()),
+    let known = texts.map(|(byte, text)| match judge(text) {
+        Ok(()) => Ok(text.to_owned()),
         Err(refusal) => Err((byte, refusal.to_string())),
     });
     known.collect()
