@@ -48,9 +48,9 @@ pub(super) struct SlipDirections<T> {
     held: Vec<[T; 2]>,
     /// How it turns, where it begins.
     series: Vec<Series<T>>,
-    /// D by rows,
+    /// D by rows.
     response: Vec<T>,
-    /// and what frictions of full size do to each ṡ.
+    /// What frictions of full size do to each ṡ.
     strength: Vec<f64>,
     /// Slips of order 2 without a turn.
     straight: Vec<[T; 2]>,
@@ -239,20 +239,20 @@ impl<T: Scalar> Dynamics<T> {
     /// Takes the slip directions of all sliding frictions of two components from their slips at the last value, and those of the forces that
     /// press together.
     pub(crate) fn take_directions(&mut self) {
-        self.resultants.hold();
-        for f in 0..self.description().frictions.len() {
-            if self.turns(f) {
-                self.head_along(f, self.slip(f));
-            }
-        }
+        self.take_directions_of(Self::slip);
     }
 
     /// The same from the series.
     pub(super) fn take_directions_of_series(&mut self) {
+        self.take_directions_of(|dynamics, f| dynamics.slip_coefficient(f, 0));
+    }
+
+    #[inline]
+    fn take_directions_of(&mut self, slip: impl Fn(&Self, usize) -> [T; 2]) {
         self.resultants.hold();
         for f in 0..self.description().frictions.len() {
             if self.turns(f) {
-                self.head_along(f, self.slip_coefficient(f, 0));
+                self.head_along(f, slip(self, f));
             }
         }
     }
