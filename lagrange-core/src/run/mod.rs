@@ -54,7 +54,7 @@ use corners::Lagrangian;
 use hidden::Hidden;
 use locator::Locator;
 use log::Recorder;
-use singular::Rank;
+use singular::RankWatch;
 use stepping::Stepper;
 use switch::Switcher;
 
@@ -85,7 +85,7 @@ pub(crate) struct Run<T: Scalar> {
     /// The declared Lagrangian, if a choice in it may change.
     lagrangian: Option<Lagrangian>,
     /// Watches for positions where constraints lose rank.
-    rank: Rank,
+    rank: RankWatch,
     locator: Locator<T>,
     switcher: Switcher<T>,
     recorder: Recorder<T>,
@@ -166,7 +166,7 @@ impl<T: Scalar> Run<T> {
             may_jump: acting.may_jump(),
             changes_with_time: acting.reads_time(),
             lagrangian: Lagrangian::new(&system, &settings.effects),
-            rank: Rank::new(d, &settings.effects),
+            rank: RankWatch::new(d, &settings.effects),
             locator: Locator::new(d, settings, &mode),
             switcher: Switcher::new(d, &state, &mode),
             recorder: Recorder::new(&system, settings, &state, &mode),

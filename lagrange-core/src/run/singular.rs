@@ -46,7 +46,7 @@ const HEAVIER: f64 = 2.0;
 
 /// Watches the rank of the constraints along a run.
 #[derive(Clone, Debug)]
-pub(super) struct Rank {
+pub(super) struct RankWatch {
     /// Rows that may lose rank; none: nothing to watch.
     rows: Vec<usize>,
     gram: Vec<f64>,
@@ -66,7 +66,7 @@ pub(super) struct Rank {
     scaled: Vec<f64>,
 }
 
-impl Rank {
+impl RankWatch {
     /// Watches the constraints whose Jacobian depends on the state and that act at all times, as far as these effects have them.
     pub(super) fn new(d: &Description, effects: &Effects) -> Self {
         let n = d.coordinates.len();
@@ -80,7 +80,7 @@ impl Rank {
             rows.clear();
         }
         let m = rows.len();
-        Rank {
+        RankWatch {
             gram: vec![0.0; m * m],
             pivots: vec![0.0; m],
             largest: vec![0.0; m],
