@@ -7,9 +7,9 @@ use crate::error::Level;
 use crate::mode::{Direction, FrictionMode, Mode};
 use crate::trajectory::State;
 
-/// Shares of forces that are not determined are chosen within their bounds to so many digits,
+/// Shares of forces that are not determined keep their bounds to this, relative.
 const SHARED: f64 = 1e-9;
-/// and cancel to so many.
+/// Such shares cancel in the balance of forces to this, relative.
 const OF_SHARES: f64 = 1e-11;
 
 /// Beside its reach a slip in space has no direction below this multiple of the tolerance.

@@ -61,10 +61,10 @@ pub(super) struct Examination<'a, T: Scalar> {
 /// So much before its end, as a share, a step is looked at for its end.
 const SHORTLY: f64 = 1e-9;
 
-/// The balance of forces is looked at in this many steps after every change of the mode,
+/// The balance of forces is looked at in this many steps after every change of the mode.
 const FIRST: usize = 4;
 
-/// and in this share of those that follow.
+/// The balance of forces is looked at in this share of the steps that follow these first ones.
 const SHARE: f64 = 0.25;
 
 /// A step of fewer units of rounding of its time, as between two branches that change at one instant, has no inside: of an instant in it

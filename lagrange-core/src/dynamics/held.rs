@@ -7,15 +7,15 @@ use crate::system::Description;
 /// What is held in one mode. It stays while the motion is in other modes, and is made anew where something else is asked for.
 #[derive(Clone, Debug)]
 pub(super) struct Held {
-    /// Outputs of the motion asked for beside the equations of motion,
+    /// Outputs of the motion asked for beside the equations of motion.
     extra: OutputMask,
-    /// and outputs asked of the report.
+    /// Outputs asked of the report.
     report_needs: OutputMask,
     /// Outputs that the motion program gives.
     motion: OutputMask,
-    /// Outputs that the functions of the mode give as a series,
+    /// Outputs that the functions of the mode give as a series.
     pub series: OutputMask,
-    /// and as values: with what a projection takes, where they give that.
+    /// Outputs that the functions of the mode give as values: with what a projection takes, where they give that.
     pub value: OutputMask,
     /// Outputs that the report program gives: for the effects, and those asked for.
     report: OutputMask,

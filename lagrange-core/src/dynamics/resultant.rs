@@ -21,10 +21,10 @@ use crate::arithmetic::Scalar;
 use crate::linear::direction::{Vector, dot, length, settle};
 use crate::program::{MAX_ORDER, Register};
 
-/// Forces below this part of the largest there have been may vanish,
+/// Forces below this part of the largest there have been may vanish, see [`VANISHING`].
 const SMALL: f64 = 1e-6;
 
-/// and do if they are smaller by this than a coefficient of a higher order, over the time in which the series changes. As the force is small for
+/// Small forces vanish if they are smaller by this than a coefficient of a higher order, over the time in which the series changes. As the force is small for
 /// no longer than it takes to grow, the motion misses the square of it.
 const VANISHING: f64 = 1e-8;
 

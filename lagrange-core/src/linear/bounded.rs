@@ -31,13 +31,13 @@ pub(crate) struct ForceBounds {
     pub(crate) sizes: Vec<f64>,
     /// Per row: at the forces of least norm.
     pub(crate) values: Vec<f64>,
-    /// The largest factor of each row,
+    /// The largest factor of each row.
     factors: Vec<f64>,
-    /// and how the row depends on the forces, without what has an effect, as parts of that.
+    /// How each row depends on the forces, without what has an effect, as parts of its largest factor.
     changes: Vec<DVector<f64>>,
-    /// B, an orthogonal basis of these, of vectors that are equally long,
+    /// B, an orthogonal basis of these, of vectors that are equally long.
     basis: DMatrix<f64>,
-    /// and how each row depends on it.
+    /// How each row depends on the basis.
     open: DMatrix<f64>,
 }
 

@@ -430,9 +430,9 @@ mod tests {
             };
             let found = program.solve(DVector::from_row_slice(&[0.0, 0.0, -9.0]));
             let (x, y, most) = (found.x[0], found.x[1], found.x[2]);
-            // It is reached,
+            // The optimum is reached.
             assert!((margin(x, y) - most).abs() < 1e-13);
-            // and what bounds it is no larger.
+            // The dual solution bounds it by the same number.
             let left = program.a.tr_mul(&found.z) - &program.c;
             assert!(left.amax() < 1e-13, "{left}");
             assert!((program.b.dot(&found.z) - most).abs() < 1e-13);

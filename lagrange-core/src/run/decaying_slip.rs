@@ -17,9 +17,9 @@ use crate::modes::guard::{self, Guard};
 const MARGIN: f64 = 10.0;
 /// Error of a slip that has decayed to rounding, of the size of the velocities that make it.
 const ROUNDING: f64 = 1e-12;
-/// A friction that is so many errors from its limit, relative, is at it,
+/// A friction that is so many errors from its limit, relative, is at it.
 const AT_LIMIT: f64 = 1e3;
-/// but not if it is as far as this.
+/// A friction as far from its limit as this, relative, is not at it, whatever its errors are.
 const OFF_LIMIT: f64 = 1e-2;
 /// Two guards are multiples of each other to this share.
 const SAME: f64 = 1e-6;

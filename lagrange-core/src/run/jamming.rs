@@ -9,10 +9,10 @@ use crate::error::Error;
 use crate::mode::FrictionMode;
 use crate::trajectory::State;
 
-/// A force that has become so many times as large as where its mode began,
+/// A force that grows without bound has become so many times as large as where its mode began.
 const LARGE: f64 = 10.0;
 
-/// and grew in each of so many steps before it ends, grows without bound.
+/// A force that grows without bound grew in each of so many steps before the mode ends.
 const STEPS: usize = 4;
 
 /// Friction does not make it where it is more than this share of it without.

@@ -46,9 +46,9 @@ pub(super) struct Locator<T> {
     pub(super) resting: Mode,
     /// Velocities a little before they come to rest.
     pub(super) earlier: Vec<T>,
-    /// Per stop, which of its terms are below zero,
+    /// Per stop, which of its terms are below zero.
     pub(super) stop_below: Vec<Vec<bool>>,
-    /// and per mark.
+    /// Per mark, which of its terms are below zero.
     pub(super) mark_below: Vec<Vec<bool>>,
     /// Per mark, its term that passed zero at the end of the last step.
     pub(super) mark_passed: Vec<Option<usize>>,

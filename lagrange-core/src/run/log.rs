@@ -17,9 +17,9 @@ pub(super) struct Recorder<T: Scalar> {
     pub(super) before: Before<T>,
     pub(super) forces_after: Vec<T>,
     pub(super) undetermined_after: Vec<bool>,
-    /// Events after which the run is to end, but for those that earlier pieces of the record have,
+    /// Events after which the run is to end, but for those that earlier pieces of the record have.
     pub(super) awaited: Vec<Awaited>,
-    /// and how many events these have.
+    /// How many events earlier pieces of the record have.
     pub(super) events_before: usize,
     /// What earlier runs cost.
     pub(super) work_before: dynamics::Work,

@@ -89,9 +89,9 @@ pub(crate) struct Run<T: Scalar> {
     locator: Locator<T>,
     switcher: Switcher<T>,
     recorder: Recorder<T>,
-    /// First instant of the span,
+    /// First instant of the span.
     begin: f64,
-    /// and its last one.
+    /// Last instant of the span.
     end: f64,
 }
 

@@ -4,10 +4,10 @@ use super::Run;
 use crate::arithmetic::Scalar;
 use crate::error::Error;
 
-/// The first look is after this share of the steps that a run may take,
+/// The first look is after this share of the steps that a run may take.
 const FIRST: f64 = 1e-3;
 
-/// and a run that goes on as it did is out of reach if it needs this many times more than it may take: motion that dies out is followed by
+/// The end of a run that goes on as it did is out of reach if it needs this many times more than the run may take: motion that dies out is followed by
 /// longer and longer steps.
 const FAR: f64 = 1e3;
 

@@ -26,15 +26,15 @@ const MOST_CORRECTIONS: usize = 12;
 /// After so many the forces themselves are asked where they cease to keep all bounds.
 const CORRECTIONS: usize = 4;
 
-/// Composite guards are also looked for at these parts of a step, at the second and each other one where the directions of forces do not turn,
+/// Composite guards are also looked for at these parts of a step, at the second and each other one where the directions of forces do not turn.
 const WITHIN: [f64; 7] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875];
 
-/// and watched from there on if they have come this near to zero, relative.
+/// Composite guards are watched from there on if they have come this near to zero, relative.
 const NEARBY: f64 = 0.5;
 
-/// The last terms of forces in a step are no larger than this share of the first ones,
+/// The last terms of forces in a step are no larger than this share of the first ones.
 const LAST_TERMS: f64 = 1e-6;
-/// and those of this order than this share: what turns by a radian is looked at four times.
+/// The terms of this order are no larger than this share, where directions turn: what turns by a radian is looked at four times.
 const TURNING: (usize, f64) = (8, 1e-2);
 
 impl<T: Scalar> Run<T> {

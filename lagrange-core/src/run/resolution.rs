@@ -15,9 +15,9 @@ use crate::error::Error;
 use crate::integrate::least_size;
 use crate::trajectory::State;
 
-/// Steps are short from this share of the longest one so far on,
+/// Steps up to this share of the longest one so far are short.
 const SHORT: f64 = 1.0 / 16.0;
-/// and looked at again where they are shorter by this.
+/// Short steps are looked at again where they are shorter by this.
 const SHORTER: f64 = 0.5;
 
 /// The elements of the matrix are sums of a few products, known to within this many units in the last place.
@@ -31,9 +31,9 @@ const MARGIN: f64 = 16.0;
 /// Which steps have been looked at.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Resolution {
-    /// The longest step so far,
+    /// The longest step so far.
     longest: f64,
-    /// and the shortest that was looked at.
+    /// The shortest step that was looked at.
     examined: f64,
 }
 

@@ -10,9 +10,9 @@ use crate::integrate::taylor::worse;
 
 /// Parts of a step at which guards are looked at: no two differ by the same, so that no load has the same value at all of them by its period.
 pub(super) const WITHIN: [f64; 8] = [0.06, 0.17, 0.31, 0.42, 0.57, 0.69, 0.83, 0.95];
-/// A step is so many times longer than the last one at most,
+/// A step is so many times longer than the last one at most.
 const GROWTH: f64 = 2.0;
-/// and the first one this part of the span.
+/// The first step is this part of the span.
 const FIRST: f64 = 1.0 / 64.0;
 
 impl<T: Scalar> Run<T> {

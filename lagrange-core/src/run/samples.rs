@@ -25,11 +25,11 @@ const FACTORS: [f64; 2] = [0.1, 5.0];
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SampledRoot {
     guard: Guard,
-    /// Of its interpolation,
+    /// The root of its interpolation.
     interpolated: f64,
-    /// of the guard on the dense output,
+    /// The root of the guard on the dense output.
     exact: f64,
-    /// and half the width of what rounding lets it be.
+    /// Half the width of the interval within which rounding lets the root be.
     width: f64,
 }
 

@@ -20,19 +20,19 @@ use crate::system::{Description, ValueRef};
 const NEARER: f64 = 0.35;
 /// Farther away than this from one it may end anywhere.
 const CLOSE: f64 = 0.2;
-/// Else it is tried this much longer, over that position,
+/// A step that would end near such a position is tried this much longer, over it.
 const LEAPS: [f64; 4] = [1.25, 1.5, 1.8, 2.2];
-/// with any degree from this on,
+/// A leap is tried with any degree from this on.
 pub(super) const LEAST_DEGREE: usize = 6;
-/// and then this much shorter,
+/// Where no leap is good, the step is tried this much shorter.
 pub(super) const RETREAT: f64 = 0.75;
-/// so many times.
+/// So many times a step is tried shorter.
 pub(super) const MOST_RETREATS: usize = 5;
-/// Nearer than this to one the equations say nothing reliable about forces,
+/// Nearer than this to such a position the equations say nothing reliable about forces.
 pub(super) const UNDECIDED: f64 = 1e-2;
-/// Error of a leap in units of what is allowed for a step: no more than steps have, so that passages do not cost more digits than they do,
+/// Error of a leap in units of what is allowed for a step: no more than steps have, so that passages do not cost more digits than they do.
 const GOOD: f64 = 0.3;
-/// and where nothing better can be had any more.
+/// Error of a leap in the same units where a step begins so near that nothing better can be had any more.
 const BEARABLE: f64 = 1e4;
 
 /// Nearer than this the steps of other methods are left to Taylor series.
@@ -53,15 +53,15 @@ pub(super) struct RankWatch {
     pivots: Vec<f64>,
     /// Largest value of each pivot so far.
     largest: Vec<f64>,
-    /// Largest diagonal elements of the mass matrix so far,
+    /// Largest diagonal elements of the mass matrix so far.
     masses: Vec<f64>,
-    /// their inverse roots,
+    /// The inverse roots of these.
     inverse_roots: Vec<f64>,
-    /// and what they were when `largest` was begun.
+    /// The inverse roots when `largest` was begun.
     lighter: Vec<f64>,
-    /// Which rows were held aside at the last look: they follow from the others,
+    /// Which rows were held aside at the last look: they follow from the others.
     aside: Vec<bool>,
-    /// and how many rows acted.
+    /// How many rows acted at the last look.
     acting: usize,
     scaled: Vec<f64>,
 }

@@ -23,9 +23,9 @@ const LEFT: f64 = 1.0;
 const LEFT_TOGETHER: f64 = 8.0;
 /// A slip no larger than this share of its terms counts as zero.
 const NOTHING: f64 = 1e-13;
-/// A slip is off by so much of what it is made of,
+/// A slip is off by so much of what it is made of.
 const ROUNDING: f64 = 1e-15;
-/// and forces by so many times that of its direction.
+/// Forces are off by so many times as much as the direction of the slip.
 const BLUR: f64 = 16.0;
 /// A slip of so many errors of what it is made of is lost among them.
 const ERRORS: f64 = 2.0;

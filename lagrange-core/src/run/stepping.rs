@@ -28,9 +28,9 @@ pub(super) struct Stepper<T> {
     pub(super) order: usize,
     /// Judges the steps of Taylor series.
     pub(super) control: DefectControl,
-    /// The method, if it is not that of Taylor series at present,
+    /// The method, if it is not that of Taylor series at present.
     pub(super) other: Option<Box<Integrator<T>>>,
-    /// and the step that it would like to take.
+    /// The step that this other method would like to take.
     pub(super) wanted: Option<f64>,
     /// Longest step of Taylor series for which guards that bend more than the motion are good, while they are what bounds the steps.
     pub(super) guarded: Option<f64>,

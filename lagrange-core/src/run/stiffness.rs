@@ -15,21 +15,21 @@ use crate::trajectory::State;
 
 /// So many steps lie between two looks; after a trial in vain, as many as there were before.
 const LOOK: usize = 64;
-/// Radau makes the steps where it can make them this much longer,
+/// Radau makes the steps where it can make them this much longer, and the motion is damped, see [`DAMPED`].
 const LONGER: f64 = 20.0;
-/// if the rates at which the motion is damped add up to this over such a step: a stiff spring without a damper keeps its motion, even if
-/// that is far below the tolerance.
+/// Radau makes the steps only where the rates at which the motion is damped add up to this over one of them: a stiff spring without a damper
+/// keeps its motion, even if that is far below the tolerance.
 const DAMPED: f64 = 1.0;
-/// and no more once its own, which cost more, are not this much longer.
+/// Radau makes the steps no more once they, which cost more, are not this much longer.
 const WORTH: f64 = 4.0;
 
 /// What is known about the stiffness of a run.
 #[derive(Debug)]
 pub(super) struct Stiffness<T> {
     method: Method,
-    /// Steps since the last switch or change of the method,
+    /// Steps since the last switch or change of the method.
     steps: usize,
-    /// and at how many the next look is due.
+    /// After how many steps the next look is due.
     due: usize,
     /// When the steps were found to be bounded by stability, unless they no longer are.
     pub(super) since: Option<f64>,

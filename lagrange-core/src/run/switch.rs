@@ -28,9 +28,9 @@ pub(super) struct Switcher<T> {
     pub(super) collider: Collider<T>,
     /// Branches that what touches holds at their border.
     pub(super) held: HeldBranches<T>,
-    /// Guards that the mode up to the switch watches,
+    /// Guards that the mode up to the switch watches.
     pub(super) watched: Vec<Guard>,
-    /// and the conditions of branches before an impact.
+    /// The conditions of branches before an impact.
     pub(super) conditions: Vec<f64>,
     /// Contacts whose gap vanishes at an impact.
     pub(super) near: Vec<usize>,

@@ -28,10 +28,10 @@ const LOWER: usize = 4;
 /// So many breaks of guards in a row are no instants that can be passed: a slip that fades has more than a thousand before it rests.
 const MOST_BREAKS: usize = 100_000;
 
-/// Where directions of slips are off by more than this share,
+/// Steps are shorter where directions of slips are off by more than this share.
 const ASTRAY: f64 = 1e-2;
 
-/// steps are shorter by this factor: their errors are then some hundredth of those allowed.
+/// Steps are shorter by this factor there: their errors are then some hundredth of those allowed.
 const MORE_EXACTLY: f64 = 0.75;
 
 impl<T: Scalar> Run<T> {

@@ -65,9 +65,9 @@ pub(crate) struct Solver<T> {
     /// Coordinates with hardly any inertia beside the others.
     light: Vec<bool>,
     quaternions: Vec<UnitQuaternion>,
-    /// The matrix with Σ κ aᵀ a of the rows that keep quaternions at unit length,
+    /// The matrix with Σ κ aᵀ a of the rows that keep quaternions at unit length.
     augmented: Vec<T>,
-    /// and these κ; none where it is not used.
+    /// The factors κ in it; none where it is not used.
     weights: Vec<T>,
     factors: Factors,
     direct: Direct<T>,

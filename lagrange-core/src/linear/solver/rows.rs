@@ -18,10 +18,11 @@ const LITTLE: f64 = 1e-4;
 /// because off the constraints, where a state is to the tolerance, accelerations by one row are not quite those by the other.
 const WEAK: f64 = 0.03;
 
-/// Rows that have been set aside count by this when the others are factored (2⁻⁴⁰), so that none of them is among these,
+/// Rows that have been set aside are scaled by this when the others are factored (2⁻⁴⁰): their pivots are below [`NEXT_TO_LAST`], and so none of
+/// them counts as independent.
 const LAST: f64 = NEXT_TO_LAST / 1024.0;
 
-/// whose pivots are larger than this.
+/// Independent rows have pivots larger than this (2⁻³⁰).
 const NEXT_TO_LAST: f64 = 1.0 / 1073741824.0;
 
 /// More than this times what rounding leaves of a number is no rounding.

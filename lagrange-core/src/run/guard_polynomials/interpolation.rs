@@ -17,10 +17,10 @@ const FEWEST_SAMPLES: usize = 8;
 /// Coefficients of an interpolation lose so many digits to rounding, relative.
 const INTERPOLATION: f64 = 1e-11;
 
-/// An interpolated guard may be off by this share of what would give it other roots,
+/// An interpolated guard may be off by this share of what would give it other roots.
 const AWAY: f64 = 1e-2;
 
-/// and by this share if it is known to what an end of a step may be off.
+/// The same share where it is known to what an end of a step may be off.
 const CLOSE: f64 = 0.3;
 
 /// Polynomials on [0, 1] from their values at nodes.

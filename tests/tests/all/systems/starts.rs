@@ -121,13 +121,13 @@ fn what_is_held_lifts_contacts_and_moves_what_rubs() {
         found.expect("a state")
     };
     let none = FixedComponents::default;
-    // It goes on to roll where it can,
+    // It goes on to roll where it can.
     let faster = consistent(none().v(Wheel::PHI, 10.0));
     assert_eq!((faster.v[0], faster.v[2]), (3.0, 10.0));
-    // slips where both are held,
+    // It slips where both are held.
     let slips = consistent(none().v(Wheel::PHI, 10.0).v(Wheel::X, 1.0));
     assert_eq!((slips.q[1], slips.v[0], slips.v[2]), (0.3, 1.0, 10.0));
-    // and flies, or is about to, where its height or its rise is.
+    // It flies, or is about to, where its height or its rise is.
     let high = consistent(none().q(Wheel::Y, 0.5).v(Wheel::PHI, 10.0));
     assert_eq!((high.q[1], high.v[0], high.v[2]), (0.5, 2.0, 10.0));
     let rises = consistent(none().v(Wheel::Y, 1.0));

@@ -36,9 +36,9 @@ pub use stages::Phase;
 
 /// Systems with more operations in a mode are interpreted, unless the declaration says otherwise.
 const MOST_OPERATIONS: usize = 220;
-/// Systems with more unknowns are interpreted, unless the declaration says otherwise,
+/// Systems with more unknowns are interpreted, unless the declaration says otherwise.
 const MOST_UNKNOWNS: usize = 8;
-/// and with more than these in any case.
+/// Systems with more unknowns than these are interpreted in any case.
 const MOST_ELIMINATED: usize = 24;
 /// More modes than these are not listed.
 const MOST_MODES: usize = 16;
