@@ -16,7 +16,7 @@ const RUNS: u64 = 50;
 type Part = (&'static str, &'static [&'static str]);
 
 /// Parts of a step beside series and right-hand side, in its order.
-const STEP: [Part; 8] = [
+const STEP: [Part; 7] = [
     ("step size", &["::step_size"]),
     ("scaling", &["::write_polynomial"]),
     ("guard polynomials", &["::take_series"]),
@@ -26,16 +26,15 @@ const STEP: [Part; 8] = [
         &["::first_hit", "::hides_a_start", "taylor::defect"],
     ),
     ("check of the end", &["Curves::defect", "::defect_at_end"]),
-    ("recording", &["Trajectory<T>::push"]),
-    ("rest of the step", &["Run<T>::advance"]),
+    ("rest of the step", &["::make_step", "::write_step"]),
 ];
 /// What stands beside it.
 const OTHERS: [Part; 6] = [
     ("series", &["::begin_series", "::end_series"]),
     ("right-hand sides", &["Dynamics<T>>::value"]),
-    ("decision", &["::decide"]),
-    ("rest of a switch", &["switch::switch", "Run<T>>::switch"]),
-    ("start", &["Run<T>::launch"]),
+    ("decision", &["Decider<T>::decide_with"]),
+    ("rest of a switch", &["Run<T>>::switch"]),
+    ("rest of the start", &["Run<T>>::launch"]),
     (
         "change of parameters",
         &["::set_scene", "::set_system", "Compiled<T>::renew"],
