@@ -136,6 +136,14 @@ pub enum Error {
         /// The contact.
         item: &'static str,
     },
+    /// In dual numbers: a slip of two components begins, in a direction whose derivatives are not computed, and all of the motion after it
+    /// has them.
+    NoDerivatives {
+        /// Time, s.
+        time: f64,
+        /// The friction.
+        item: &'static str,
+    },
     /// No mode continues the motion although all coefficients are legal (Painlevé's paradox, walls that meet).
     NoMode {
         /// Time, s.
@@ -449,6 +457,11 @@ impl fmt::Display for Error {
                 f,
                 "t = {}: the gap of `{item}` vanishes where it has no direction, as the distance of two points does; give them a \
                  size, for example sqrt(x^2 + y^2) >= radius",
+                Shortest(*time)
+            ),
+            Error::NoDerivatives { time, item } => write!(
+                f,
+                "t = {}: the slip of `{item}` begins in a direction whose derivatives are not computed; take differences of two runs",
                 Shortest(*time)
             ),
             Error::NoMode {

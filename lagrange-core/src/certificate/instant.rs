@@ -93,6 +93,13 @@ impl Equations {
     pub fn examine_bounds(&mut self, at: Situation<'_>, mode: &Mode, findings: &mut Findings) {
         let blur = self.blur_of_directions(at, mode, findings.tolerance);
         let shared = if at.shared { SHARED } else { 0.0 };
+        let largest = self.largest.clone();
+        if at.shared {
+            // A share may be small, or nothing, beside the load that it is a part of.
+            let mut loads = core::mem::take(&mut self.largest);
+            self.spread(&mut loads, mode);
+            self.largest = loads;
+        }
         for (c, contact) in self.declaration.contacts.iter().enumerate() {
             if self.includes(Item::Contact(c)) && mode.contacts[c] {
                 let (force, name) = (at.forces[self.d.contacts[c].row], self.d.contacts[c].name);
@@ -120,6 +127,7 @@ impl Equations {
             }
             findings.book(Subject::Cones, beyond, size, at.time, name);
         }
+        self.largest = largest;
     }
 
     /// What rounding makes of a force along a value where hardly any acts: the force that would take away a second's rounding error of velocities beside 1.

@@ -61,6 +61,9 @@ pub(super) struct Examination<'a, T: Scalar> {
 /// So much before its end, as a share, a step is looked at for its end.
 const SHORTLY: f64 = 1e-9;
 
+/// Instants within a step at which shares of forces are looked at.
+const WITHIN: usize = 7;
+
 /// The balance of forces is looked at in this many steps after every change of the mode.
 const FIRST: usize = 4;
 
@@ -291,11 +294,16 @@ impl<'a, T: Scalar> Examination<'a, T> {
             let mode = &self.modes[segment.mode];
             self.equations.examine(at, mode, &mut self.findings);
             // What a force has done wrong since some instant of a long step shows at its end; at that itself a condition may already be on its other side.
-            let last = self.report(k, (1.0 - SHORTLY) * segment.end.value())?;
-            let at = last.situation(self.begin.q.len());
-            let mode = &self.modes[segment.mode];
-            self.equations.take(at);
-            self.equations.examine_bounds(at, mode, &mut self.findings);
+            // How forces can be shared out may be wrong for a while within.
+            let count = if reported.shared { WITHIN } else { 0 };
+            let within = gauss(count).into_iter().map(|(x, _)| 0.5 * (1.0 + x));
+            for part in within.chain([1.0 - SHORTLY]) {
+                let now = self.report(k, part * segment.end.value())?;
+                let at = now.situation(self.begin.q.len());
+                let mode = &self.modes[segment.mode];
+                self.equations.take(at);
+                self.equations.examine_bounds(at, mode, &mut self.findings);
+            }
         }
         self.enter(segment);
         if !self.has_small_defects(segment)? {

@@ -6,6 +6,9 @@ use crate::error::Level;
 use crate::mode::Mode;
 use crate::trajectory::State;
 
+/// Sizes that grow by less than this factor have settled.
+const GROWS: f64 = 1.1;
+
 /// Velocities that are larger by 1, all of one sign.
 fn raised(v: &[f64]) -> Vec<f64> {
     v.iter().map(|v| 1.0 + v.abs()).collect()
@@ -19,12 +22,15 @@ impl Equations {
     pub fn balance_with_sizes(&mut self, at: Situation<'_>, mode: &Mode) {
         /// Changes of the state, whose rounding errors do not matter and which are small enough to be linear.
         const CHANGE: f64 = 1.0 / 1_048_576.0;
+        // No two change alike, so that no difference of coordinates stays as it is.
+        let part = |i: usize| CHANGE * (0.5 + (0.618_033_988_749_895 * i as f64).fract());
         let changed = |x: &[f64]| -> Vec<f64> {
-            let signs = [1.0, -1.0, 1.0, 1.0, -1.0].into_iter().cycle();
-            let signed = x.iter().zip(signs);
-            signed
-                .map(|(x, s)| x + s * CHANGE * (1.0 + x.abs()))
-                .collect()
+            let changed = x.iter().enumerate();
+            let changed = changed.map(|(i, x)| match i % 2 {
+                0 => x + part(i) * (1.0 + x.abs()),
+                _ => x - part(i) * (1.0 + x.abs()),
+            });
+            changed.collect()
         };
         let (q, v) = (changed(at.q), changed(at.v));
         self.balance(Situation { q: &q, v: &v, ..at });
@@ -55,43 +61,66 @@ impl Equations {
                 *size += (there - here).abs() / CHANGE;
             }
         }
-        let mut brought = vec![0.0; self.size.len()];
+        let mut size = core::mem::take(&mut self.size);
+        let brought = self.brought(&size, mode);
+        let sizes = size.iter_mut().zip(brought);
+        sizes.for_each(|(size, brought)| *size += brought);
+        self.spread(&mut size, mode);
+        self.size = size;
+    }
+
+    /// Makes sizes of what balances as large as what the forces of rows bring from others: a load goes on through many, from block to block of a
+    /// train that is pushed at its end.
+    pub fn spread(&mut self, sizes: &mut [f64], mode: &Mode) {
+        for _ in 0..self.d.rows.len() {
+            let mut grows = false;
+            let brought = self.brought(sizes, mode);
+            for (size, brought) in sizes.iter_mut().zip(brought) {
+                grows |= brought > GROWS * *size;
+                *size = size.max(brought);
+            }
+            if !grows {
+                break;
+            }
+        }
+    }
+
+    /// Per coordinate the most that the force of a row brings into its equation from those of others that the row acts in.
+    fn brought(&mut self, sizes: &[f64], mode: &Mode) -> Vec<f64> {
+        let mut brought = vec![0.0; sizes.len()];
         for row in 0..self.d.rows.len() {
             if self.acts(row, mode) {
                 let (value, level) = self.row(row);
-                let (along, square) = self.along(value, level, &self.size.clone());
+                let (along, square) = self.along(value, level, sizes);
                 let force = along / square.max(f64::MIN_POSITIVE);
                 self.bring(level, force, &mut brought);
             }
         }
         for f in 0..self.d.frictions.len() {
             if self.friction_acts(f, mode) {
-                self.bring_by_friction(f, &mut brought);
+                self.bring_by_friction(f, sizes, &mut brought);
             }
         }
-        for (size, brought) in self.size.iter_mut().zip(brought) {
-            *size += brought;
-        }
+        brought
     }
 
-    /// Adds a force along the value that was looked at last.
+    /// Takes a force along the value that was looked at last, where it is more than what is brought already.
     fn bring(&self, level: Level, force: f64, brought: &mut [f64]) {
         for (brought, sizes) in brought.iter_mut().zip(&self.sizes_along) {
-            *brought += sizes[level as usize] * force;
+            *brought = brought.max(sizes[level as usize] * force);
         }
     }
 
     /// What friction `f` brings from the equations that its normal force balances in into others.
-    fn bring_by_friction(&mut self, f: usize, brought: &mut [f64]) {
-        let sizes = self.size.clone();
+    fn bring_by_friction(&mut self, f: usize, sizes: &[f64], brought: &mut [f64]) {
         let friction = self.declaration.frictions[f];
         let coefficient = self.values.value(friction.kinetic_coefficient);
         for source in self.d.frictions[f].normal.rows(self.d) {
             let (value, level) = self.row(source);
-            let (along, square) = self.along(value, level, &sizes);
+            let (along, square) = self.along(value, level, sizes);
             let force = coefficient * along / square.max(f64::MIN_POSITIVE);
             for &slip in friction.slip {
-                self.along(slip, Level::Velocity, &sizes);
+                self.along(slip, Level::Velocity, sizes);
                 self.bring(Level::Velocity, force, brought);
             }
         }
@@ -135,22 +164,18 @@ impl Equations {
         change(&self.sizes_along, &self.sizes, [at.q, at.v])
     }
 
-    /// Accelerations that forces of the sizes of the last balance would make. The inertia of a coordinate is its momentum where
-    /// all velocities are 1; terms of either sign count alike, so that it is not too small. What has none at all, as the scalar part of an
+    /// Accelerations that forces of the sizes of the last balance would make. The inertia of a coordinate is its momentum where it moves
+    /// alone with velocity 1; terms of either sign count alike, so that it is not too small. What has none at all, as the scalar part of an
     /// attitude that is 1, is moved by the rows that act on it.
     fn measure_swiftness(&mut self, at: Situation<'_>, mode: &Mode) {
         self.balance(at);
-        let ones = vec![1.0; at.v.len()];
-        let still = Situation { v: &ones, ..at };
-        self.balancing.evaluate(still.inputs(&self.zeros));
-        self.swiftness.fill(0.0);
-        for (i, &value) in self.declaration.kinetic.iter().enumerate() {
-            if self.effects.includes(self.d, Item::Kinetic(i)) {
-                self.balancing
-                    .gradient_size(value, 0, &mut self.sizes_along);
-                let sizes = self.swiftness.iter_mut().zip(&self.sizes_along);
-                sizes.for_each(|(inertia, sizes)| *inertia += sizes[1]);
-            }
+        let mut v = vec![0.0; at.v.len()];
+        for j in 0..v.len() {
+            v[j] = 1.0;
+            let alone = Situation { v: &v, ..at };
+            self.balancing.evaluate(alone.inputs(&self.zeros));
+            self.swiftness[j] = self.momentum_of(j);
+            v[j] = 0.0;
         }
         let without: Vec<usize> = (0..at.v.len())
             .filter(|&i| self.swiftness[i] == 0.0)
@@ -161,6 +186,20 @@ impl Equations {
         if !without.is_empty() {
             self.measure_swiftness_by_rows(&without, at, mode);
         }
+    }
+
+    /// Momentum of a coordinate at the state that was balanced, with the absolute values of its terms.
+    fn momentum_of(&mut self, j: usize) -> f64 {
+        let declaration = self.declaration;
+        let kinetic = declaration.kinetic.iter().enumerate();
+        let taking = kinetic.filter(|(i, _)| self.effects.includes(self.d, Item::Kinetic(*i)));
+        let taking: Vec<usize> = taking.map(|(_, &value)| value).collect();
+        let momenta = taking.into_iter().map(|value| {
+            self.balancing
+                .gradient_size(value, 0, &mut self.sizes_along);
+            self.sizes_along[j][1]
+        });
+        momenta.sum()
     }
 
     /// Accelerations of coordinates without inertia that balance those of the others in the rows that act, Σ aₖ v̇ₖ ≈ 0: by least squares over

@@ -185,7 +185,11 @@ impl Watches {
         self.guards.iter_mut().for_each(|guard| guard.last = None);
         self.parts = PARTS;
         self.look(step, 0.0, mode, findings);
-        self.between(step, [0.0, step.end], mode, findings);
+        // What jumps at the end is false just before it.
+        let blur = ROUNDING_OF_TIME * (step.time + step.length * step.end).abs() / step.length;
+        let before = (step.end - blur).max(0.0);
+        self.between(step, [0.0, before], mode, findings);
+        self.look(step, step.end, mode, findings);
     }
 
     /// Looks at everything between two parts of a step, the first of which has been looked at, and at the second.
@@ -313,7 +317,8 @@ impl Watches {
                     (Subject::Gaps, error, self.d.contacts[c].name)
                 }
                 Kind::Stop(i) => {
-                    let error = if guard.armed { value } else { 0.0 };
+                    let late = guard.armed && !guard.has_just_changed(at.time);
+                    let error = if late { value } else { 0.0 };
                     if value < 0.0 && !guard.armed {
                         // One that begins to be true is false before by its rounding error, if at all.
                         self.values.gradient_size(term, 0, &mut self.changes);
@@ -323,8 +328,9 @@ impl Watches {
                     (Subject::Stops, error, self.d.stops[i].name)
                 }
                 Kind::Mark(i) => {
-                    let missed =
-                        guard.misses(at.time, value, self.d.marks[i].zeros, &self.marks[i]);
+                    let zeros = self.d.marks[i].zeros;
+                    let blur = findings.tolerance * at.time.abs();
+                    let missed = guard.misses(at.time, value, zeros, &self.marks[i], blur);
                     (Subject::Marks, missed, self.d.marks[i].name)
                 }
             };
@@ -391,14 +397,21 @@ impl Guard {
             && (self.terms.iter()).any(|&gap| contains_zero(values.value(gap)))
     }
 
-    /// How far a mark has gone through zero since it was looked at last without having been logged.
-    fn misses(&self, time: f64, value: f64, zeros: bool, logged: &[f64]) -> f64 {
+    /// Whether a stop that is true now was false an instant ago.
+    fn has_just_changed(&self, time: f64) -> bool {
+        let just = 2.0 * ROUNDING_OF_TIME * time.abs();
+        let last = self.last;
+        last.is_some_and(|(before, earlier)| earlier < 0.0 && time - before <= just)
+    }
+
+    /// How far a mark has gone through zero since it was looked at last without having been logged, to within a `blur` of the time.
+    fn misses(&self, time: f64, value: f64, zeros: bool, logged: &[f64], blur: f64) -> f64 {
         let Some((before, earlier)) = self.last else {
             return 0.0;
         };
         let crossed = earlier < 0.0 && value > 0.0 || zeros && earlier > 0.0 && value < 0.0;
-        // Where it jumps, rounding of the time alone tells before from after.
-        let blur = (1e-9 * (time - before)).max(ROUNDING_OF_TIME * time.abs());
+        // Where it jumps, the time alone tells before from after.
+        let blur = blur.max(1e-9 * (time - before));
         let near = before - blur..=time + blur;
         if crossed && !logged.iter().any(|t| near.contains(t)) {
             earlier.abs().min(value.abs())

@@ -59,6 +59,9 @@ pub enum Equations {
 /// Modes kept ready; beyond that the oldest goes.
 const MOST_MODES: usize = 64;
 
+/// A velocity below it counts as much: one that is zero is so only to rounding of its unit, as projections leave it.
+pub(crate) const AT_REST: f64 = 1e-2;
+
 /// Work done so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {

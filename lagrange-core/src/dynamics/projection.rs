@@ -256,6 +256,22 @@ impl<T: Scalar> Dynamics<T> {
         self.move_velocities(v, held, residual, rounding::<T>())
     }
 
+    /// [`Self::project_velocities`] without held ones, also where residuals are rounding beside a velocity of 1: a coordinate that a row hardly
+    /// moves would keep many times that.
+    ///
+    /// # Errors
+    /// The same.
+    pub(crate) fn project_small_velocities(
+        &mut self,
+        t: T,
+        q: &[T],
+        v: &mut [T],
+    ) -> Result<(), EvaluationError> {
+        self.run_rows(t, q, v);
+        let residual = self.residual(Level::Velocity, v);
+        self.move_velocities(v, &[], residual, 0.0)
+    }
+
     /// [`Self::project_velocities`] from velocities of this `residual`, where it is above `least`. The motion program was run at (q, v),
     /// and its outputs are those at the new velocities afterwards, as far as projections read them.
     fn move_velocities(

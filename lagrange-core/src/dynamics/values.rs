@@ -4,7 +4,7 @@ use super::compiled::{Compiled, Outcome};
 use super::emitted::is_finite;
 use super::interpreted::Interpreted;
 use super::shape::{Extent, FORCES, MOTION, Part, REPORT, SYSTEM};
-use super::{Dynamics, Equations, EvaluationError};
+use super::{AT_REST, Dynamics, Equations, EvaluationError};
 use crate::arithmetic::{Scalar, epsilon};
 use crate::equations::Arguments;
 use crate::linear::{Inertia, Shares, SolveError};
@@ -190,7 +190,10 @@ impl<T: Scalar> Dynamics<T> {
         let outcome = solver.check_rows_aside(solution, right, || {
             let velocities = interpreted.registers[2 + n..2 + 2 * n].iter().enumerate();
             // No factor occurs twice, so that nothing cancels because coordinates move alike.
-            let others = velocities.map(|(j, v)| (1.0 + j as f64).sqrt() * v.value());
+            let others = velocities.map(|(j, v)| {
+                let v = v.value();
+                (1.0 + j as f64).sqrt() * (v + AT_REST.copysign(v))
+            });
             let others: Vec<f64> = others.collect();
             interpreted
                 .right_sides_at(&others)

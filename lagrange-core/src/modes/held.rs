@@ -14,11 +14,9 @@ const BESIDE: f64 = 1e-4;
 const KEPT: f64 = 1e-7;
 /// A guard that is not smaller than this share of what it is beside is not looked at.
 const SMALL: f64 = 1e-2;
-/// Directions in which states are looked at, for time and every coordinate and velocity in turn.
-const DIRECTIONS: [[f64; 5]; 2] = [
-    [0.62, -0.83, 0.47, 0.91, -0.56],
-    [-0.71, -0.44, 0.97, -0.59, 0.78],
-];
+/// Irrational steps by which time and all coordinates and velocities are moved by different parts in the two directions in which states are looked
+/// at: no two of them move alike, however many there are.
+const STEPS: [f64; 2] = [0.618_033_988_749_895, 0.414_213_562_373_095];
 
 /// Which branches are held, with the memory to find out.
 #[derive(Clone, Debug, Default)]
@@ -61,29 +59,30 @@ impl<T: Scalar> HeldBranches<T> {
             .extend(branches.iter().map(|branch| !branch.after_solve));
         self.of_positions.clear();
         self.of_positions.resize(branches.len(), false);
-        for direction in DIRECTIONS {
+        for step in STEPS {
             if dynamics.acting_rows().is_empty() {
                 self.held.fill(false);
             }
             if !self.held.contains(&true) {
                 return;
             }
-            self.look_along(dynamics, needs, at, direction);
+            self.look_along(dynamics, needs, at, step);
         }
     }
 
-    /// Keeps those that are held beside the present state in one direction.
+    /// Keeps those that are held beside the present state in the direction of a step.
     fn look_along(
         &mut self,
         dynamics: &mut Dynamics<T>,
         needs: &OutputMask,
         at: EvaluationPoint<'_, T>,
-        direction: [f64; 5],
+        step: f64,
     ) {
         let branches = dynamics.description().branches;
-        let mut parts = direction.into_iter().cycle();
+        let mut moved = 0.0;
         let mut beside = |x: &T| {
-            let part = BESIDE * parts.next().unwrap_or(1.0);
+            moved += 1.0;
+            let part = BESIDE * (0.5 + (moved * step).fract());
             *x + T::from_f64(part * x.value().abs().max(1.0))
         };
         let t = beside(&at.t);

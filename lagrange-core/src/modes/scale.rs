@@ -8,12 +8,10 @@
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
+use crate::mode::FrictionMode;
 use crate::modes::exact;
 use crate::modes::guard::{self, Guard};
 use crate::system::{Normal, ValueRef};
-
-/// A velocity below it counts as much: one that is zero is so only to rounding of its unit, as projections leave it.
-pub const AT_REST: f64 = 1e-2;
 
 /// Coordinates of an attitude.
 const QUATERNION: usize = 4;
@@ -23,7 +21,7 @@ const NO_INERTIA: f64 = 1e-24;
 /// What all guards of a state share.
 #[derive(Clone, Debug, Default)]
 pub struct Sizes {
-    /// 1/mⱼ, 0 where a coordinate has no inertia of its own.
+    /// 1/mⱼ, of a coordinate without inertia of its own that of what it is tied to; 0 where there is none.
     mobility: Vec<f64>,
     /// The first coordinate of each quaternion, and the row that keeps its length.
     quaternions: Vec<[usize; 2]>,
@@ -60,14 +58,61 @@ impl Sizes {
                 *mobility = 0.0;
             }
         }
+        self.take_followers(dynamics);
         let forcing = self.mobility.iter().zip(d.forcing);
         let forced = forcing.map(|(m, &f)| m.sqrt() * number(f));
         self.forced = forced.fold(0.0, f64::hypot);
         self.take_rows(dynamics);
     }
 
-    /// Takes the rows that act from the last value, in another mode at the same state: a friction that slips drives nothing, and where its
-    /// row nearly vanishes it would have to drive without bound to hold.
+    /// Gives coordinates without inertia of their own the mobility of those that constraints tie them to: at the dead centre of a crank it is the piston that
+    /// tells how heavy a place is that it is told to be at.
+    fn take_followers<T: Scalar>(&mut self, dynamics: &Dynamics<T>) {
+        let d = dynamics.description();
+        let of_attitude = |j: usize| {
+            let mut quaternions = self.quaternions.iter();
+            quaternions.any(|&[first, _]| j.wrapping_sub(first) < QUATERNION)
+        };
+        let mut idle: Vec<usize> = (0..self.mobility.len())
+            .filter(|&j| self.mobility[j] == 0.0 && !of_attitude(j))
+            .collect();
+        let number = |place: ValueRef| dynamics.motion(place).value();
+        while !idle.is_empty() {
+            let tied = |j: usize| {
+                let rows = d
+                    .constraints
+                    .iter()
+                    .map(|constraint| &d.rows[constraint.row]);
+                let mobilities = rows.map(|row| {
+                    let own = row.jacobian.iter().find(|(k, _)| *k == j);
+                    let own = own.map_or(0.0, |&(_, place)| number(place).powi(2));
+                    let others = row.jacobian.iter().filter(|(k, _)| *k != j);
+                    let moved = others.map(|&(k, place)| number(place).powi(2) * self.mobility[k]);
+                    if own > 0.0 {
+                        moved.sum::<f64>() / own
+                    } else {
+                        0.0
+                    }
+                });
+                mobilities.fold(0.0, f64::max)
+            };
+            let found: Vec<(usize, f64)> = idle
+                .iter()
+                .map(|&j| (j, tied(j)))
+                .filter(|(_, mobility)| *mobility > 0.0)
+                .collect();
+            if found.is_empty() {
+                return;
+            }
+            for (j, mobility) in found {
+                self.mobility[j] = mobility;
+                idle.retain(|other| *other != j);
+            }
+        }
+    }
+
+    /// Takes the rows that act from the last value, in another mode at the same state: a friction that slips drives nothing beyond a normal force that
+    /// is given, and where its row nearly vanishes it would have to drive without bound to hold.
     pub fn take_rows<T: Scalar>(&mut self, dynamics: &Dynamics<T>) {
         let d = dynamics.description();
         let rows = dynamics.acting_rows().iter();
@@ -79,7 +124,17 @@ impl Sizes {
                 0.0
             }
         });
-        self.drive = driven.fold(self.forced, f64::hypot);
+        let drive = driven.fold(self.forced, f64::hypot);
+        let given = d.frictions.iter().enumerate().filter(|(f, friction)| {
+            let slides = matches!(dynamics.mode().frictions[*f], FrictionMode::Slip(_));
+            slides && matches!(friction.normal, Normal::Given(_))
+        });
+        self.drive = given.fold(drive, |drive, (f, friction)| {
+            let force = self.friction(f, friction.kinetic_coefficient, dynamics);
+            let rows = friction.rows();
+            let rubbed = rows.map(|row| force * self.compliance(row, dynamics).sqrt());
+            rubbed.fold(drive, f64::hypot)
+        });
     }
 
     /// Momentum of all coordinates with these speeds.
@@ -130,22 +185,41 @@ impl Sizes {
         self.row(row, dynamics).acceleration
     }
 
-    /// Size of what the force of each row that acts holds in balance: what drives and what accelerates the coordinates that it moves, of a
+    /// Size of what the force of each row that acts holds in balance in the equation that says it best: forcing, inertia and other forces; of a
     /// friction also what it is a part of.
     pub fn held<T: Scalar>(&self, dynamics: &Dynamics<T>) -> Vec<f64> {
         let d = dynamics.description();
         let number = |place: ValueRef| dynamics.motion(place).value().abs();
+        let forcing = d.forcing.iter();
+        let mut terms: Vec<f64> = forcing.map(|&place| number(place)).collect();
+        let mut inert = |i: usize, j: usize, mass: f64| {
+            terms[i] += mass * dynamics.acceleration()[j].value().abs();
+        };
+        for &(i, j, place) in d.mass {
+            inert(i, j, number(place));
+            if i != j {
+                inert(j, i, number(place));
+            }
+        }
+        let force = |row: usize| dynamics.force(row).value().abs();
+        for (row, declared) in d.rows.iter().enumerate() {
+            for &(j, place) in declared.jacobian {
+                terms[j] += number(place) * force(row);
+            }
+        }
         let mut held = vec![0.0; d.rows.len()];
         for &row in dynamics.acting_rows() {
-            let parts = d.rows[row].jacobian.iter().map(|&(j, place)| {
-                let driven = self.mobility[j] * number(d.forcing[j]);
-                number(place) * (driven + dynamics.acceleration()[j].value().abs())
+            let equations = d.rows[row].jacobian.iter();
+            let others = equations.filter_map(|&(j, place)| {
+                let share = number(place);
+                (share > 0.0).then(|| terms[j] / share - force(row))
             });
-            let acceleration = number(d.rows[row].bias) + parts.sum::<f64>();
-            let compliance = self.compliance(row, dynamics);
-            if compliance > 0.0 {
-                held[row] = acceleration / compliance;
-            }
+            let least = others.fold(f64::INFINITY, f64::min);
+            held[row] = if least.is_finite() {
+                least.max(0.0)
+            } else {
+                0.0
+            };
         }
         for friction in d.frictions {
             let normal = friction.normal.rows(d).map(|row| held[row]);

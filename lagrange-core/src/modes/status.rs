@@ -76,7 +76,6 @@ impl ConstraintStatus {
             near: slack(tolerance.strictness()),
             sizes: tolerance.sizes,
             least: tolerance.strictness() / slack(tolerance.strictness()),
-            extent: state.q.iter().fold(1.0_f64, |m, x| m.max(x.value().abs())),
         };
         let includes = |item: Item| dynamics.effects().includes(d, item);
         for c in (0..d.contacts.len()).filter(|&c| includes(Item::Contact(c))) {
@@ -174,8 +173,7 @@ impl ConstraintStatus {
         let rows = friction.rows();
         let slip = |row: usize| view.number(d.rows[row].velocity);
         // In a dead centre the slip is small however fast the motion is: that is no rest.
-        let fastest = rows.clone().map(|row| view.fastest(row)).sum::<f64>();
-        let rests = |row| slip(row).abs() <= view.near * view.speed(row).min(fastest);
+        let rests = |row| slip(row).abs() <= view.near * view.speed(row);
         if rows.clone().all(rests) {
             self.facts.resting[f] = true;
             self.mode.frictions[f] = FrictionMode::Stick;
@@ -215,8 +213,6 @@ struct View<'a, T: Scalar> {
     state: &'a State<T>,
     /// Relative to sizes.
     near: f64,
-    /// Size of positions, 1 at least.
-    extent: f64,
     /// Per coordinate, where they are given: the size below which its errors are absolute.
     sizes: &'a [f64],
     /// What makes their absolute tolerances of these.
@@ -228,27 +224,13 @@ impl<T: Scalar> View<'_, T> {
         self.dynamics.motion(place).value()
     }
 
-    /// Size of the position of a row.
+    /// Size of the position of a row: what it changes by when each coordinate changes by its size.
     fn extent(&self, row: usize) -> f64 {
-        match self.sizes {
-            [] => self.extent,
-            _ => self.sum(row, |j| self.state.q[j].value().abs()),
-        }
+        self.sum(row, |j| self.state.q[j].value().abs())
     }
 
     /// Size of the rate of a row.
     fn speed(&self, row: usize) -> f64 {
-        if !self.sizes.is_empty() {
-            return self.sum(row, |j| self.state.v[j].value().abs());
-        }
-        let terms = self.dynamics.description().rows[row].jacobian.iter();
-        terms
-            .map(|&(j, place)| (self.number(place) * self.state.v[j].value()).abs())
-            .fold(1.0_f64, f64::max)
-    }
-
-    /// What velocities of their size, or of that below which errors are absolute, make of a row at most.
-    fn fastest(&self, row: usize) -> f64 {
         self.sum(row, |j| self.state.v[j].value().abs())
     }
 

@@ -22,7 +22,7 @@ const FEWEST: usize = 3;
 /// Intervals that are remembered.
 const REMEMBERED: usize = 128;
 
-/// A flight that rises no higher than this, in the unit of the gap, is too low for a gap that is rounded at each of its samples.
+/// A flight that rises no higher than this, relative to the extent of the gap, is too low for a gap that is rounded at each of its samples.
 const LOW: f64 = 1e-9;
 
 /// Rounding of a gap, relative to the terms that make it.
@@ -219,7 +219,7 @@ impl<T: Scalar> Run<T> {
             if let Some((count, remaining)) = ended.or_else(|| self.die_out(facts)) {
                 let time = self.now.t;
                 self.switcher.before_holding.clone_from(&self.now.state);
-                let closed = self.close_contacts(c, count, remaining, facts);
+                let closed = self.close_contacts(c, count, remaining, outcome, facts);
                 if closed.is_err() {
                     // A motion that cannot go on ends where it was.
                     self.now.t = time;
@@ -292,11 +292,13 @@ impl<T: Scalar> Run<T> {
 
     /// Whether a contact is open for a flight so low that samples of its gap do not tell when it ends, while Taylor series do.
     pub(super) fn flies_low(&self) -> bool {
-        let contacts = self.now.mode.contacts.iter().zip(&self.switcher.impacts);
+        let extents = &self.locator.polynomials.extents;
+        let flown = self.switcher.impacts.iter().zip(extents);
+        let contacts = self.now.mode.contacts.iter().zip(flown);
         let mut flights = contacts.filter(|(closed, _)| !**closed);
-        flights.any(|(_, impacts)| {
+        flights.any(|(_, (impacts, extent))| {
             let lasts = self.now.t.value() - impacts.last;
-            impacts.height <= LOW && lasts <= 2.0 * impacts.interval
+            impacts.height <= LOW * extent && lasts <= 2.0 * impacts.interval
         })
     }
 
@@ -318,7 +320,8 @@ impl<T: Scalar> Run<T> {
 
     /// Whether the gap of contact `c` is below the tolerance.
     fn vanishes(&self, c: usize) -> bool {
-        self.gap(c).abs() <= self.settings.tolerance
+        let extent = self.locator.polynomials.extents[c];
+        self.gap(c).abs() <= self.settings.tolerance * extent
     }
 
     /// Contact `c` bounces no more.
@@ -336,6 +339,7 @@ impl<T: Scalar> Run<T> {
         c: usize,
         count: usize,
         remaining: T,
+        outcome: &Impact<T>,
         facts: &mut SwitchFacts,
     ) -> Result<(), Error> {
         let d = self.description();
@@ -344,10 +348,15 @@ impl<T: Scalar> Run<T> {
         near.extend((0..d.contacts.len()).filter(|&c| facts.touching[c]));
         let rubs = |f: &usize| near.iter().any(|&c| d.frictions[*f].normal.is_of(c));
         let rubbing = || (0..d.frictions.len()).filter(rubs);
-        self.switcher.scratch_mode.clone_from(&self.now.mode);
-        near.iter()
-            .for_each(|&c| self.switcher.scratch_mode.contacts[c] = false);
-        rubbing().for_each(|f| self.switcher.scratch_mode.frictions[f] = FrictionMode::Inactive);
+        let mode = &mut self.switcher.scratch_mode;
+        mode.clone_from(&self.now.mode);
+        // What lies where nothing strikes goes on as it did.
+        for &c in near.iter().filter(|&&c| outcome.struck[c]) {
+            mode.contacts[c] = false;
+            let rubs = |f: &usize| d.frictions[*f].normal.is_of(c);
+            let rubbing = (0..d.frictions.len()).filter(rubs);
+            rubbing.for_each(|f| mode.frictions[f] = FrictionMode::Inactive);
+        }
         self.dynamics.set_mode(&self.switcher.scratch_mode);
         self.evaluate_all_rows()?;
         let half = T::from_f64(0.5) * remaining;

@@ -6,7 +6,7 @@
 use super::Run;
 use crate::arithmetic::Scalar;
 use crate::declaration::{Declaration, Evaluator, Gradient, Inputs, Seed};
-use crate::dynamics::{Residual, row_name};
+use crate::dynamics::{AT_REST, Residual, row_name};
 use crate::effects::{Effects, Item};
 use crate::error::Error;
 use crate::system::Erased;
@@ -201,6 +201,10 @@ impl<T: Scalar> Run<T> {
         };
         let (changes, moves) = lagrangian.changes(at);
         let [before, after] = [false, true].map(|after| lagrangian.side(after, &changes, at));
+        // Of what is at rest there are squares of rounding only.
+        let faster: Vec<f64> = v.iter().map(|v| v.abs() + AT_REST).collect();
+        let moving = Inputs { v: &faster, ..at };
+        let sides = [false, true].map(|after| lagrangian.side(after, &changes, moving));
         let kick = |momentum, before, after| Error::Kick {
             time,
             condition: branch.then,
@@ -210,14 +214,16 @@ impl<T: Scalar> Run<T> {
         };
         let momenta = before.gradients.iter().zip(&after.gradients);
         let momenta = momenta.map(|(before, after)| [before.velocity, after.velocity]);
-        let sizes = momenta.clone().flatten().map(|momentum| momentum.size);
+        let sizes = sides.iter().flat_map(|side| &side.gradients);
+        let sizes = sizes.map(|gradient| gradient.velocity.size);
         let size = sizes.fold(0.0, f64::max);
         for (coordinate, [before, after]) in d.coordinates.iter().zip(momenta) {
             if (after.sum - before.sum).abs() > CORNER * size {
                 return Err(kick(Some(coordinate.name), before.sum, after.sum));
             }
         }
-        if moves && (after.value - before.value).abs() > CORNER * before.size.max(after.size) {
+        let size = sides.iter().fold(0.0_f64, |size, side| size.max(side.size));
+        if moves && (after.value - before.value).abs() > CORNER * size {
             return Err(kick(None, before.value, after.value));
         }
         Ok(())

@@ -90,6 +90,7 @@ impl<T: Scalar> Run<T> {
             self.now.state.clone_from(start);
         }
         outcome?;
+        self.measure_gaps();
         self.recorder.trajectory.start.clone_from(&self.now.state);
         self.now.outdate();
         self.now.mode.clone_from(&self.switcher.status.mode);

@@ -20,6 +20,7 @@ impl<T: Scalar> Run<T> {
     pub(super) fn hit(&mut self, facts: &mut SwitchFacts) -> Result<bool, Error> {
         let d = self.description();
         self.evaluate_all_rows()?;
+        self.measure_gaps();
         self.note_conditions();
         for c in (0..d.contacts.len()).filter(|&c| !self.now.mode.contacts[c]) {
             if !facts.arriving[c] {

@@ -133,8 +133,9 @@ impl<T: Scalar> Run<T> {
             .as_ref()
             .map(|composite| self.joint_value(composite));
         let within = looked > 0.0 && self.switcher.redundant.has_open();
-        let mut last_kept = 0.0;
-        let mut again = within && self.finds_joints_within(looked, &mut last_kept) || others;
+        let (mut last_kept, asks_forces) = (0.0, *corrections >= CORRECTIONS);
+        let within = within && self.finds_joints_within(looked, asks_forces, &mut last_kept);
+        let mut again = within || others;
         let fallen = self
             .locator
             .fallen
@@ -144,7 +145,7 @@ impl<T: Scalar> Run<T> {
                 _ => None,
             });
         // The weights of an instant may be none of another.
-        let asks_forces = *corrections >= CORRECTIONS && last_kept > 0.0;
+        let asks_forces = asks_forces && last_kept > 0.0;
         let composites = &mut self.locator.polynomials.composites;
         match (fallen, critical, value) {
             (None, Some(composite), Some(value)) if value < -ROOT => {
@@ -222,9 +223,9 @@ impl<T: Scalar> Run<T> {
     }
 
     /// Looks for composite guards at some instants before part `end` of the step, where `dynamics` and `scratch` end again: whether
-    /// there are new ones, or known ones are below zero with weights that are new. `last_kept` is the last of these instants at which forces keep all
-    /// bounds.
-    fn finds_joints_within(&mut self, end: f64, last_kept: &mut f64) -> bool {
+    /// there are new ones, or known ones are below zero with weights that are new; or the forces themselves are asked where they cease to keep all bounds.
+    /// `last_kept` is the last of these instants at which they do.
+    fn finds_joints_within(&mut self, end: f64, asks_forces: bool, last_kept: &mut f64) -> bool {
         let mut found = false;
         let (first, each) = match self.directions_turn() {
             true => (0, 1),
@@ -245,25 +246,29 @@ impl<T: Scalar> Run<T> {
                 *last_kept = part;
             }
             let mut known = self.locator.polynomials.composites.iter();
-            match known.position(|known| known.is_like(&composite)) {
+            let known = known.position(|known| known.is_like(&composite));
+            // Where directions of friction turn, what is open cancels at one instant only: the root of such a guard may be none.
+            let refuted = known.is_none() && is_like_one_of(&self.locator.refuted, &composite);
+            if falls && (refuted || asks_forces) {
+                return self.locates_a_joint([*last_kept, part], end);
+            }
+            match known {
+                None if refuted => {}
                 None => {
-                    // Where directions of friction turn, what is open cancels at one instant only: the root of such a guard may be none.
-                    let refuted = is_like_one_of(&self.locator.refuted, &composite);
-                    if refuted && falls {
-                        return self.locates_a_joint([*last_kept, part], end);
-                    }
-                    if !refuted {
-                        self.locator.polynomials.composites.push(composite);
-                        found = true;
-                    }
+                    self.locator.polynomials.composites.push(composite);
+                    found = true;
                 }
                 Some(k) => {
                     let known = &mut self.locator.polynomials.composites[k];
                     if known.falls_after.is_none() {
-                        let was = core::mem::replace(known, composite);
-                        found |= falls && self.joint_value(&was) >= -ROOT;
+                        *known = composite;
+                        found |= falls;
                     }
                 }
+            }
+            // What comes later has other weights.
+            if falls {
+                break;
             }
         }
         // What could be evaluated before.

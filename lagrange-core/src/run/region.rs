@@ -6,7 +6,6 @@
 //! come up through it. Where it enters the region on the surface, as a wheel that climbs a kerb, the contact closes.
 
 use super::Run;
-use super::guard_polynomials::rounding;
 use crate::arithmetic::Scalar;
 use crate::effects::Item;
 use crate::events::{Direction, find_root};
@@ -90,7 +89,11 @@ impl<T: Scalar> Run<T> {
             let gap = value(curve, end);
             let size: f64 = curve.iter().map(|c| c.abs()).sum();
             // Within the region it can only be a root that rounding has put into the next step.
-            let blur = (1e-9 * size).max(rounding(gap.abs(), guard, &self.dynamics));
+            let blur = (1e-9 * size).max(self.locator.polynomials.rounding(
+                gap.abs(),
+                guard,
+                &self.dynamics,
+            ));
             let passed = gap < -blur || !self.within_region(guard, end);
             // What reaches the edge and the surface at once passes by it.
             let edge = self.locator.polynomials.of(Guard::Region(c));

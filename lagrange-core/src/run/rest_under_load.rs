@@ -32,7 +32,7 @@ impl<T: Scalar> Run<T> {
         }
         match self.recorder.trajectory.work.steps {
             0 => FIRST * (self.end - self.begin),
-            _ => GROWTH * self.stepper.step.h.value(),
+            _ => GROWTH * self.stepper.made,
         }
     }
 

@@ -41,6 +41,8 @@ pub(super) struct Stepper<T> {
     pub(super) stiffness: Stiffness<T>,
     pub(super) resolution: Resolution,
     pub(super) step: StepPolynomial<T>,
+    /// Length of the last step that was made.
+    pub(super) made: f64,
     /// Powers of the step length, h⁰ … hᵖ.
     pub(super) powers: Row<f64>,
     /// State where the step ends.
@@ -71,6 +73,7 @@ impl<T: Scalar> Stepper<T> {
             stiffness: Stiffness::new(settings.method),
             resolution: Resolution::default(),
             step: StepPolynomial::new(n, 1),
+            made: 0.0,
             powers: [0.0; ROW],
             scratch: state.clone(),
             slopes: vec![0.0; n],
@@ -104,6 +107,7 @@ impl<T: Scalar> Stepper<T> {
 impl<T: Scalar> Run<T> {
     /// Makes a step from the present state and finds what happens first in it.
     pub(super) fn accepted_step(&mut self) -> Result<Hit, Error> {
+        self.stepper.made = self.stepper.step.h.value();
         if self.stepper.is_taylor() {
             return self.taylor_step();
         }

@@ -195,6 +195,7 @@ impl<T: Scalar> Run<T> {
             .filter(|g| matches!(g, Guard::Region(_)));
         self.locator.zeros.extend(edges.map(|&edge| (edge, 1)));
         self.set_mode_decided();
+        self.refuse_derivatives_of_directions()?;
         self.let_lie();
         if self.switcher.decider.decision.expanded {
             self.now.series = Progress::Complete;
@@ -227,6 +228,17 @@ impl<T: Scalar> Run<T> {
         self.stops_of_the_mode()
     }
 
+    /// A slip of two components that begins has a direction that is found in plain numbers.
+    fn refuse_derivatives_of_directions(&self) -> Result<(), Error> {
+        match self.now.mode.incipient().next() {
+            Some((f, _)) if T::DERIVATIVES > 0 => Err(Error::NoDerivatives {
+                time: self.now.t.value(),
+                item: self.description().frictions[f].name,
+            }),
+            _ => Ok(()),
+        }
+    }
+
     /// Forces of several constraints that vanish at this instant begin in the direction in which their frictions are pressed.
     fn note_forces_that_begin(&mut self) {
         for (f, friction) in self.description().frictions.iter().enumerate() {
@@ -247,8 +259,7 @@ impl<T: Scalar> Run<T> {
         self.locator.lies = false;
         for &(gap, _) in lying {
             self.locator.lies = true;
-            let margin = self.settings.tolerance;
-            self.locator.polynomials.lower(gap, margin);
+            self.locator.polynomials.lower(gap, self.settings.tolerance);
         }
     }
 

@@ -336,7 +336,8 @@ impl<T: Scalar> Run<T> {
             let index = self.locator.polynomials.index_of(guard)?;
             let (_, curve) = self.locator.polynomials.get(index)?;
             let q = self.stepper.scratch.q.iter();
-            let size = q.fold(1.0_f64, |size, q| size.max(q.value().abs()));
+            let extent = self.locator.polynomials.extents[contact];
+            let size = q.fold(extent, |size, q| size.max(q.value().abs()));
             let depth = BEYOND * self.settings.tolerance.max(1e-13) * size;
             let beyond = end + depth / polynomial_derivative(curve, end).abs();
             let fallen = horner(curve, beyond);

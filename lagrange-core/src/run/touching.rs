@@ -5,6 +5,7 @@ use crate::arithmetic::{Scalar, rounding};
 use crate::effects::Item;
 use crate::modes::facts::SwitchFacts;
 use crate::modes::guard::Guard;
+use crate::system::ValueRef;
 
 /// A body that is closed at some points may be off by so many times more at others.
 const LEVER: f64 = 4.0;
@@ -63,16 +64,30 @@ impl<T: Scalar> Run<T> {
     /// Whether the gap of contact `c` and its rate vanish beside the terms that make them; gaps that vanish are `off` by so much.
     fn touches(&self, c: usize, off: f64) -> bool {
         let contact = &self.description().contacts[c];
-        let number = |place| self.dynamics.motion(place).value();
-        let row = &self.description().rows[contact.row];
-        let gap = self.gap(c);
-        let terms = row.jacobian.iter();
-        let extent: f64 = terms
-            .map(|&(j, place)| number(place).abs() * self.now.state.q[j].value().abs().max(1.0))
-            .sum();
         let (rate, size) = self.rate(contact.row);
         self.is_in_region(c)
-            && gap.abs() <= rounding::<T>(ROUNDING) * extent + off
+            && self.gap(c).abs() <= rounding::<T>(ROUNDING) * self.extent(c) + off
             && rate.abs() <= rounding::<T>(ROUNDING) * size
+    }
+
+    /// What the gap of contact `c` changes by when each coordinate x changes by 1, or |x| if that is more; `dynamics` holds the numbers of its row.
+    fn extent(&self, c: usize) -> f64 {
+        let description = self.description();
+        let terms = description.rows[description.contacts[c].row]
+            .jacobian
+            .iter();
+        let change = |&(j, place): &(usize, ValueRef)| {
+            let size = self.now.state.q[j].value().abs().max(1.0);
+            self.dynamics.motion(place).value().abs() * size
+        };
+        terms.map(change).sum()
+    }
+
+    /// Takes down how large the gaps are; `dynamics` holds the numbers of all rows.
+    pub(super) fn measure_gaps(&mut self) {
+        for c in 0..self.description().contacts.len() {
+            let extent = self.extent(c);
+            self.locator.polynomials.extents[c] = extent.max(1.0);
+        }
     }
 }

@@ -3,12 +3,12 @@
 use super::Run;
 use super::touching::ROUNDING;
 use crate::arithmetic::{Scalar, rounding};
+use crate::dynamics::AT_REST;
 use crate::effects::Item;
 use crate::error::Error;
 use crate::mode::FrictionMode;
 use crate::modes::facts::SwitchFacts;
 use crate::modes::guard::Guard;
-use crate::modes::scale::AT_REST;
 use crate::trajectory::State;
 
 impl<T: Scalar> Run<T> {
@@ -121,7 +121,7 @@ impl<T: Scalar> Run<T> {
         self.dynamics.set_mode(&self.switcher.scratch_mode);
         let mut hold = false;
         // Where no velocity satisfies all rows together, none of the slips has ended.
-        if self.project(true).is_ok() && self.evaluate_all_rows().is_ok() {
+        if self.hold_all_rows().is_ok() {
             hold = several;
             for &f in ending {
                 facts.resting[f] = self.slip_vanishes(f);
@@ -141,6 +141,15 @@ impl<T: Scalar> Run<T> {
         }
         self.dynamics.set_mode(&self.now.mode);
         self.now.valued = false;
+    }
+
+    /// Moves the state onto the rows of the mode of the dynamics, velocities to their last digit, and evaluates all rows there.
+    fn hold_all_rows(&mut self) -> Result<(), Error> {
+        self.project(true)?;
+        let State { q, v, .. } = &mut self.now.state;
+        let held = self.dynamics.project_small_velocities(self.now.t, q, v);
+        held.map_err(|e| self.error(e))?;
+        self.evaluate_all_rows()
     }
 
     /// Whether the slip of friction `f` is zero beside the terms that make it.

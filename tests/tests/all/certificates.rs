@@ -3,7 +3,7 @@
 use lagrange_core::prelude::*;
 use lagrange_problems::catalogue::scenes;
 use lagrange_tests::fuzz::{self, Verdict};
-use lagrange_tests::{METHODS, Random, certified, methods_at, run, run_by, words};
+use lagrange_tests::{METHODS, Random, TOLERANCES, certified, methods_at, run, run_by, words};
 
 /// Random runs that fall short of their bounds, each for a reason that is to be found.
 const SHORT: [u64; 0] = [];
@@ -306,5 +306,124 @@ fn fixed_steps_that_divide_the_time_end_with_it() {
         let run = simulation.run(start, 0.0..end).expect("a run");
         assert_eq!(run.work().steps, steps, "{method} to {end} s");
         certified("on a rod", &run);
+    }
+}
+
+/// Six blocks in a row, of which the first is pushed and held.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x[6]),
+    kinetic = sum(i in 0..6: der(x[i])^2) / 2,
+    contact(touch[i in 0..5]: x[i+1] - x[i] >= 1),
+    friction(brake: slip = der(x[0]), limit = 1),
+    friction(hook: slip = der(x[5]) - der(x[4]), limit = 3/10),
+    force(push: x[0] = load),
+    start(in_a_row: x[1] = 1, x[2] = 2, x[3] = 3, x[4] = 4, x[5] = 5),
+)]
+struct Train {
+    load: f64,
+}
+
+/// Forces at its other end are the rounding of the push, and balance to that.
+#[test]
+fn rounding_of_a_load_goes_on_through_many_contacts() {
+    for load in [0.5, 0.7, 3.0] {
+        let train = Train { load };
+        for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-9]) {
+            let start = train.at(Train::IN_A_ROW);
+            let what = format!("{load} by {method} at {tolerance:e}");
+            certified(&what, &run_by(&train, (method, tolerance), start, 1.0));
+        }
+    }
+}
+
+/// A mass that is told of by its sign only, and one that is looked for by a product of its place and the time.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    mark(both: x * (t - later)),
+    stop(there: sign(x - end) >= 0),
+)]
+struct Told {
+    later: f64,
+    end: f64,
+}
+
+/// A stop that jumps is true where it ends the run, and a mark is logged where it vanishes, however little it depends on the place.
+#[test]
+fn stops_that_jump_and_marks_of_the_time_are_met() {
+    for later in [0.401, 0.73, 0.9] {
+        let scene = Told { later, end: 1.1 };
+        for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-9, 1e-12]) {
+            let start = State::new(vec![-1e-4], vec![1.0]);
+            let motion = run_by(&scene, (method, tolerance), start, 2.0);
+            let what = format!("{later} by {method} at {tolerance:e}");
+            assert_eq!(
+                words(&motion),
+                ["both mark", "both mark", "there stop"],
+                "{what}"
+            );
+            certified(&what, &motion);
+        }
+    }
+}
+
+/// A load on the floor, hoisted by a rope whose sheave has a seal that is switched off.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(z, s, turn),
+    kinetic = 50 * der(z)^2 + der(s)^2 + der(turn)^2/100,
+    potential = 981 * z,
+    constraint(rope: 4*z == s),
+    constraint(sheave: turn/20 == s),
+    friction(seal: slip = der(turn)/20, limit = hold),
+    contact(floor: z >= 0),
+    force(pull: s = 400*t),
+    start(down),
+)]
+struct Hoist {
+    hold: f64,
+}
+
+/// What is left of a share that is zero is small beside the load that it is a part of.
+#[test]
+fn a_share_of_nothing_is_known_to_the_rounding_of_the_load() {
+    for hold in [0.0, 1.0] {
+        let hoist = Hoist { hold };
+        for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-9]) {
+            let motion = run_by(&hoist, (method, tolerance), hoist.at(Hoist::DOWN), 0.6);
+            certified(format!("{hold} by {method} at {tolerance:e}"), &motion);
+        }
+    }
+}
+
+/// A block that lies on a deck which turns about a pivot, far away from it.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(angle, s, n),
+    define(px = s * cos(angle) - n * sin(angle), py = s * sin(angle) + n * cos(angle)),
+    kinetic = inertia/2 * der(angle)^2 + (der(px)^2 + der(py)^2) / 2,
+    potential = gravity * py,
+    contact(deck: n >= 0),
+)]
+struct OnADeck {
+    inertia: f64,
+    gravity: f64,
+}
+
+/// The inertia of a coordinate does not grow with the levers of others.
+#[test]
+fn accelerations_are_measured_by_inertias_of_their_own() {
+    for unit in [1.0, 1e3, 1e5] {
+        let scene = OnADeck {
+            inertia: 0.7 * unit * unit,
+            gravity: 9.81 * unit,
+        };
+        for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+            let start = State::new(vec![0.3, 5.0 * unit, 0.0], vec![0.0; 3]);
+            let motion = run_by(&scene, (method, tolerance), start, 0.8);
+            certified(format!("{unit:e} by {method} at {tolerance:e}"), &motion);
+        }
     }
 }

@@ -28,9 +28,6 @@ const NEXT_TO_LAST: f64 = 1.0 / 1073741824.0;
 /// More than this times what rounding leaves of a number is no rounding.
 const BESIDE_ROUNDING: f64 = 1e4;
 
-/// Accelerations of this size count as zero.
-const SQUARE_OF_ROUNDING: f64 = 1e-20;
-
 impl<T: Scalar> Solver<T> {
     /// Factors the equilibrated matrix with the rows of an independent subset.
     pub(super) fn factor_independent(&mut self, most: usize) -> Result<(), SolveError> {
@@ -163,8 +160,6 @@ impl<T: Scalar> Solver<T> {
                 residual += term;
                 largest = largest.max(term.abs());
             }
-            // Of a system at rest nothing is left but squares of the rounding of its velocities.
-            let largest = largest.max(SQUARE_OF_ROUNDING);
             let elements = &self.matrix[(n + row) * size..][..n];
             let compliance = elements.iter().enumerate().map(|(j, &a)| weighted(j, a));
             let driven = (drive * compliance.sum::<f64>()).sqrt();

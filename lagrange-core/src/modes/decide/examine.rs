@@ -4,13 +4,12 @@ use super::Decider;
 use super::just_after::{AHEAD, reach};
 use super::questions::{blame, concerns, leading, list_questions};
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
+use crate::dynamics::{AT_REST, Dynamics, EvaluationError, OutputMask};
 use crate::integrate::{Tolerance, horner};
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::facts::{EvaluationPoint, SwitchContext};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
-use crate::modes::scale::AT_REST;
 use crate::modes::table::Table;
 use crate::system::ValueRef;
 
@@ -186,7 +185,7 @@ impl<T: Scalar> Decider<T> {
         dynamics.set_extra_needs(&guard::all_row_needs(d, needs));
         dynamics.series(moment.t, moment.q, moment.v, moment.order)?;
         self.decision.expanded = false;
-        let allowed = Tolerance::both(moment.tolerance);
+        let allowed = Tolerance::both(moment.tolerance.max(f64::EPSILON));
         let h = reach(dynamics, moment.order, allowed);
         let largest = |series: &[T]| {
             let powers = core::iter::successors(Some(1.0), |power| Some(power * h));

@@ -16,6 +16,9 @@ use crate::modes::reading::Reading;
 /// How far ahead guards at their border are looked at, in parts of the step.
 pub(super) const AHEAD: f64 = 1e-2;
 
+/// Instants are located to this share of the tolerance, in parts of what a series reaches over.
+const INSTANT: f64 = 1e-3;
+
 /// So many composite guards at most begin at their border.
 const MOST_JOINTS: usize = 20;
 
@@ -73,7 +76,7 @@ impl<T: Scalar> Decider<T> {
             1e-3
         };
         let allowed = Tolerance::both(allowed);
-        let h = reach(dynamics, order, allowed);
+        let h = reach(dynamics, order, allowed).min(self.directions_last(dynamics, facts));
         let ahead = Ahead {
             dynamics,
             here,
@@ -114,6 +117,32 @@ impl<T: Scalar> Decider<T> {
             return None;
         }
         Some(self.violated.is_empty())
+    }
+
+    /// How long slips that are under way keep their directions, s: beyond the time in which one of two components may turn or end its series
+    /// say nothing, also where the motion is as simple as that of a puck that slides straight on.
+    fn directions_last(&self, dynamics: &Dynamics<T>, facts: &SwitchFacts) -> f64 {
+        let reading = Reading::Series(dynamics);
+        let frictions = dynamics.description().frictions.iter().enumerate();
+        let turns = frictions.filter(|&(f, friction)| {
+            let slips = matches!(self.posed.frictions[f], FrictionMode::Slip(_));
+            friction.components > 1 && slips && !facts.resting[f]
+        });
+        let lasts = turns.map(|(_, friction)| {
+            let size = |k: usize| {
+                let rows = friction.rows().map(|row| &dynamics.description().rows[row]);
+                let parts = rows.map(|row| {
+                    reading
+                        .motion(row.velocity)
+                        .as_slice()
+                        .get(k)
+                        .map_or(0.0, |c| c.value())
+                });
+                parts.fold(0.0, f64::hypot)
+            };
+            size(0) / size(1)
+        });
+        lasts.fold(f64::INFINITY, f64::min)
     }
 
     /// At the border several composite guards may vanish together: a little later those that fall show.
@@ -183,11 +212,13 @@ impl<T: Scalar> Decider<T> {
             power *= h;
         }
         let size = series.iter().fold(0.0_f64, |size, c| size.max(c.abs()));
-        // The residue of a located root, and what follows from it, has the size of the integration error.
+        // The residue of a located root, and what follows from it, has the size of the integration error. Everything else is off by what it changes by
+        // within the error of the instant.
         let (relative, absolute) = if concerns(guard, &self.composites, here.facts) {
             ((100.0 * tolerance).clamp(1e-11, 1e-3), here.blur())
         } else {
-            (1e-13, 1e-14)
+            let instant = INSTANT * tolerance;
+            (instant.max(1e-13), instant.max(1e-14))
         };
         let cancelling = match guard {
             Guard::Branch(b) if here.facts.held[b] => self.size_as_of_rows(size, ahead, h),

@@ -5,11 +5,10 @@ use super::bearing::Bearing;
 use super::collision::{Collision, ContactRow, FrictionRow, NormalSource};
 use super::pattern::ROUNDING;
 use crate::arithmetic::{Scalar, rounding};
-use crate::dynamics::Dynamics;
+use crate::dynamics::{AT_REST, Dynamics};
 use crate::effects::Item;
 use crate::linear::{Equilibrated, Rank, least_norm};
 use crate::mode::FrictionMode;
-use crate::modes::scale::AT_REST;
 use crate::system::{Normal, Restitution, ValueRef};
 
 /// What stands between coordinates and rows; the memory is reused.

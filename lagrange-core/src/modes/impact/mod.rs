@@ -224,7 +224,9 @@ impl<T: Scalar> Collider<T> {
         }
         for touch in &c.touches {
             let row = touch.row;
-            outcome.stays[touch.contact] = turns.rates[row].value().abs() <= turns.noise[row];
+            // The last corner of a plate has what the run has left of the rates of the others.
+            let off = c.strength(row) * c.drift;
+            outcome.stays[touch.contact] = turns.rates[row].value().abs() <= turns.noise[row] + off;
             let effect = turns.impulses[row].value() * c.g(row, row).value();
             outcome.struck[touch.contact] = effect > turns.noise[row];
         }

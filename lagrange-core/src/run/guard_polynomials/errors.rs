@@ -11,7 +11,7 @@ use crate::modes::guard::Guard;
 /// A guard on the other side of zero than its polynomial is off by more than rounding explains: this much more is counted.
 const OTHER_SIDE: f64 = 1e3;
 
-/// So much a guard of size 1 is off by rounding; see [`rounding`].
+/// So much a guard of size 1 is off by rounding; see [`GuardPolynomials::rounding`].
 pub(super) const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// How far the polynomial of a guard is off at a part of the step.
@@ -92,32 +92,37 @@ impl GuardPolynomials {
             GuardError {
                 error,
                 allowed: allowed * size(value, c).max(least),
-                rounding: rounding(error, curve.guard, dynamics),
+                rounding: self.rounding(error, curve.guard, dynamics),
                 other_side: !located && (found < 0.0) != (value < 0.0),
             }
         })
     }
-}
 
-/// What rounding makes of a guard at the last value of `dynamics`, to be told from an `error`. Gaps and slips are differences of positions and of
-/// velocities, which may be large: those of two satellites on a rope, from the centre of the Earth. What is watched, and where branches change, may be
-/// made of all of them.
-#[inline]
-pub(in crate::run) fn rounding<T: Scalar>(error: f64, guard: Guard, dynamics: &Dynamics<T>) -> f64 {
-    let least = arithmetic::rounding::<T>(ROUNDING);
-    if error <= least {
-        return least;
+    /// What rounding makes of a guard at the last value of `dynamics`, to be told from an `error`. Gaps and slips are differences of positions and of
+    /// velocities, which may be large: those of two satellites on a rope, from the centre of the Earth. What is watched, and where branches change, may be
+    /// made of all of them.
+    #[inline]
+    pub(in crate::run) fn rounding<T: Scalar>(
+        &self,
+        error: f64,
+        guard: Guard,
+        dynamics: &Dynamics<T>,
+    ) -> f64 {
+        let least = arithmetic::rounding::<T>(ROUNDING);
+        if error <= least {
+            return least;
+        }
+        let state = dynamics.time_and_state();
+        let n = state.len() / 2;
+        let (terms, extent) = match guard {
+            Guard::Gap(c) => (&state[1..=n], self.extents[c]),
+            Guard::Slip(_) => (&state[1 + n..], 1.0),
+            Guard::Stop(..) | Guard::Mark(..) | Guard::Branch(_) => (state, 1.0),
+            _ => return least,
+        };
+        let larger = |size: f64, x: &T| size.max(x.value().abs());
+        least * terms.iter().fold(extent, larger)
     }
-    let state = dynamics.time_and_state();
-    let n = state.len() / 2;
-    let terms = match guard {
-        Guard::Gap(_) => &state[1..=n],
-        Guard::Slip(_) => &state[1 + n..],
-        Guard::Stop(..) | Guard::Mark(..) | Guard::Branch(_) => state,
-        _ => return least,
-    };
-    let larger = |size: f64, x: &T| size.max(x.value().abs());
-    least * terms.iter().fold(1.0, larger)
 }
 
 /// The size of a guard with this value and these coefficients. Not all of them: where the series has stopped converging they are large and cancel.

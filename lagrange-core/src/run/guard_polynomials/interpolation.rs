@@ -2,7 +2,7 @@
 //! `run/samples` sees to it that the interpolation holds.
 
 use super::GuardPolynomials;
-use super::errors::{allowance, rounding, size};
+use super::errors::{allowance, size};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::events::{clearance, deflate};
@@ -132,7 +132,7 @@ impl GuardPolynomials {
             let value = self.value(index, mode, dynamics);
             let size = size(value, c);
             let error = (at(c, s) - value).abs();
-            let rounding = rounding(error, curve.guard, dynamics);
+            let rounding = self.rounding(error, curve.guard, dynamics);
             let allowed = |located: bool| {
                 let share = allowance::<T>(curve.guard, tolerance, located);
                 share.max(INTERPOLATION) * size + rounding
@@ -159,7 +159,7 @@ impl GuardPolynomials {
         let guard = self.list[index].guard;
         let share = allowance::<T>(guard, tolerance, true).max(INTERPOLATION);
         let (c, value) = (self.curve(index), self.value(index, mode, dynamics));
-        let allowed = share * size(value, c) + rounding(value.abs(), guard, dynamics);
+        let allowed = share * size(value, c) + self.rounding(value.abs(), guard, dynamics);
         matches!(guard, Guard::Composite(_)) || value.abs() <= allowed
     }
 

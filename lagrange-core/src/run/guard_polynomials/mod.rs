@@ -5,8 +5,6 @@
 mod errors;
 mod interpolation;
 
-pub(super) use errors::rounding;
-
 use super::samples::SampledRoot;
 use crate::arithmetic::Scalar;
 use crate::arithmetic::quad::{Quad, QuadBody, side_by_side};
@@ -54,6 +52,8 @@ pub(super) struct GuardPolynomials {
     /// Coefficients of all polynomials, one after the other, `width` of each.
     coefficients: Vec<f64>,
     width: usize,
+    /// Per contact: what its gap changes by when the coordinates change by their sizes, and 1 at least.
+    pub(super) extents: Vec<f64>,
     /// The stops and marks that take part.
     pub(super) stops: Vec<usize>,
     pub(super) marks: Vec<usize>,
@@ -97,7 +97,10 @@ impl<T: Scalar> QuadBody<(&mut GuardPolynomials, &Dynamics<T>, &Mode, &[f64])> f
 impl GuardPolynomials {
     /// Room for the stops and marks of a system, as far as these effects have them.
     pub(super) fn new(d: &Description, effects: &Effects) -> Self {
-        let mut curves = GuardPolynomials::default();
+        let mut curves = GuardPolynomials {
+            extents: vec![1.0; d.contacts.len()],
+            ..Default::default()
+        };
         for (i, stop) in d.stops.iter().enumerate() {
             curves.first_stop.push(curves.watches.len());
             if effects.includes(d, Item::Stop(i)) {
@@ -242,10 +245,14 @@ impl GuardPolynomials {
         }
     }
 
-    /// Lets a guard of the mode fall below zero by `margin`, until [`Self::raise`] finds it clear of zero.
+    /// Lets a guard of the mode fall below zero by `margin`, of gaps in units of their extents, until [`Self::raise`] finds it clear of zero.
     pub(super) fn lower(&mut self, guard: Guard, margin: f64) {
+        let extent = match guard {
+            Guard::Gap(c) => self.extents[c],
+            _ => 1.0,
+        };
         for curve in self.list.iter_mut().filter(|curve| curve.guard == guard) {
-            curve.margin = margin;
+            curve.margin = margin * extent;
         }
     }
 
@@ -367,11 +374,12 @@ impl GuardPolynomials {
         let mut broken = None;
         for index in 0..self.list.len() {
             let value = self.value(index, mode, dynamics);
+            let guard = self.list[index].guard;
+            let rounding = self.rounding(value.abs(), guard, dynamics);
             let curve = &mut self.coefficients[index * self.width..][..self.width];
             curve[1..].fill(0.0);
-            let guard = self.list[index].guard;
             let one_sided = matches!(guard, Guard::Gap(_) | Guard::Branch(_));
-            let falls = value < -rounding(value.abs(), guard, dynamics) && curve[0] >= 0.0;
+            let falls = value < -rounding && curve[0] >= 0.0;
             if value.is_nan() || one_sided && falls {
                 broken = broken.or(Some((guard, curve[0], value)));
             }

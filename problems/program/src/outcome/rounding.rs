@@ -67,4 +67,20 @@ mod tests {
             assert!(samples.all(|sample| (sample.forces[1] - force).abs() <= 1e-13 * force));
         }
     }
+
+    /// A yoke whose mass is at a place that is told twice: in its dead centres the joint has all of the force by a row that turns nothing.
+    #[test]
+    fn what_has_no_inertia_holds_what_it_is_tied_to() {
+        let declared =
+            "coordinates(a, x, u), constraint(red: u == x), constraint(joint: x == 0.1*cos(a)),
+            kinetic = der(a)^2/2 + der(u)^2/2, friction(rub: slip = der(x), limit = 1),
+            start(s: x = 0.1, u = 0.1, der(a) = 30), until = 0.105";
+        let scene = file::scene("yoke.lagrange", declared).expect("a declaration");
+        let outcome = scene.run(&Request::default()).expect("a run");
+        // u'' = -0.1 a'^2, which `red` pulls; `joint` pulls that and what rubs.
+        let start = &outcome.samples[0].forces;
+        assert!((start[0] + 90.0).abs() < 1e-9, "{start:?}");
+        assert!((start[1] + 91.0).abs() < 1e-9, "{start:?}");
+        assert!(outcome.events.iter().all(|event| event.forces[1] > 80.0));
+    }
 }

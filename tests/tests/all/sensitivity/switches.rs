@@ -4,7 +4,7 @@ use super::ball::ball;
 use super::{Slopes, TIGHT, USUAL, all, compare, run, same_slopes, seeded};
 use lagrange_core::Runnable;
 use lagrange_core::prelude::*;
-use lagrange_tests::agree;
+use lagrange_tests::{agree, root};
 
 /// A mass slides down a smooth shell and leaves it.
 #[derive(Lagrangian, Clone, Debug)]
@@ -257,4 +257,34 @@ fn a_rod_given_by_a_root_changes_no_derivative() {
         let dual = all(&clapper(seeded(p), (1e-12, method)));
         compare(p, |p| all(&clapper(p, TIGHT)), &dual, 1e-4, 1e-6);
     }
+}
+
+/// A mass that lies on a rough table is pulled ever more, in a direction that turns.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    friction(rub: slip = (der(x), der(y)), normal = 9.81, static = mu, kinetic = mu/2),
+    force(hand: (pull * t, sin(2*t)) at (x, y)),
+    start(lies),
+)]
+struct Pulled<T = f64> {
+    mu: T,
+    pull: T,
+}
+
+/// Its slip begins in a direction that depends on both parameters: up to there the instant has its derivatives, and then the run ends.
+#[test]
+fn a_slip_that_begins_in_space_ends_derivatives() {
+    let [mu, pull] = seeded([0.3, 1.0]);
+    let scene = Pulled { mu, pull };
+    let simulation = Simulation::new(&scene);
+    let failure = simulation.run(scene.at(<Pulled>::LIES), 0.0..4.0);
+    let failure = failure.expect_err("no derivatives of what follows");
+    let Error::NoDerivatives { time, item } = failure.error else {
+        panic!("{failure}")
+    };
+    assert_eq!(item, "rub");
+    let beyond = |t: f64| t.hypot((2.0 * t).sin()) - 0.3 * 9.81;
+    agree("instant", time, root(beyond, 2.0, 4.0), 1e-8);
 }

@@ -4,7 +4,7 @@
 use super::{PI, state};
 use lagrange_core::prelude::*;
 use lagrange_tests::{
-    METHODS, Random, SINGLE_METHODS, TOLERANCES, agree, integral, methods_at, run_by,
+    METHODS, Random, SINGLE_METHODS, TOLERANCES, agree, integral, methods_at, run_by, times,
 };
 
 /// Crank a and rod b of length 1, the slider at x on a line through the pivot.
@@ -320,6 +320,59 @@ fn a_crank_in_space_passes_its_dead_centres() {
                 1.0,
                 1e3 * tolerance.max(1e-11),
             );
+        }
+    }
+}
+
+/// A leg of two links that hangs from a hip and stands on the ground, its knee at its stop.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(a, b),
+    define(
+        thigh = [sin(a)/2, -cos(a)/2],
+        shank = [sin(a) + sin(b)/2, -cos(a) - cos(b)/2],
+        foot = [sin(a) + sin(b), -cos(a) - cos(b)],
+    ),
+    kinetic = (dot(der(thigh), der(thigh)) + dot(der(shank), der(shank)))/2 + (der(a)^2 + der(b)^2)/24,
+    potential = gravity * (thigh[1] + shank[1]),
+    contact(knee: a >= b),
+    contact(ground: foot[1] >= -2 * cos(slope)),
+    friction(sole on ground: slip = der(foot[0]), static = mu),
+    force(hip: a = torque * sin(2*pi*t)),
+    start(stand: a = slope, b = slope),
+)]
+struct Leg {
+    gravity: f64,
+    slope: f64,
+    mu: f64,
+    torque: f64,
+}
+
+/// Straight, it cannot bend while hip and sole are held: where the torque is all that the weight gives the knee, torque = g sin α, the sole slips, in
+/// whatever order its slip begins.
+#[test]
+fn a_straight_leg_slips_as_its_knee_gives_way() {
+    for (slope, mu, torque) in [(0.1, 0.6, 4.0), (0.1, 0.3, 2.5), (0.15, 0.5, 5.0)] {
+        let leg = Leg {
+            gravity: 9.81,
+            slope,
+            mu,
+            torque,
+        };
+        let gives_way = (leg.gravity * slope.sin() / torque).asin() / (2.0 * PI);
+        for (method, tolerance) in methods_at(METHODS, [1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-12]) {
+            let motion = run_by(
+                &leg,
+                (method, tolerance),
+                leg.at(Leg::STAND),
+                gives_way + 0.03,
+            );
+            let what = format!("{leg:?} by {method} at {tolerance:e}");
+            for (item, kind) in [("knee", "lost"), ("sole", "slips")] {
+                let found = times(&motion, item, kind);
+                assert!(!found.is_empty(), "{what}: {item} {kind}");
+                agree(&what, found[0], gives_way, tolerance.max(1e-9));
+            }
         }
     }
 }

@@ -278,3 +278,96 @@ fn the_last_bounces_of_a_gap_with_a_short_series() {
         }
     }
 }
+
+/// A mass in a bowl, whose gap is written without a root and times a factor.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = gravity * y,
+    contact(bowl: factor * (x^2 + y^2) <= factor * radius^2, restitution = 3/5),
+)]
+struct Bowl {
+    radius: f64,
+    gravity: f64,
+    factor: f64,
+}
+
+/// The same with its gap as a distance.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = gravity * y,
+    contact(bowl: sqrt(x^2 + y^2) <= radius, restitution = 3/5),
+)]
+struct RoundBowl {
+    radius: f64,
+    gravity: f64,
+}
+
+/// A gap of large numbers comes to rest as one that is a distance in metres does, in other units as well.
+#[test]
+fn the_last_bounces_of_a_gap_of_large_numbers() {
+    let (radius, gravity, x) = (6.0, 9.81, 3.0);
+    let round = RoundBowl { radius, gravity };
+    let start = state(&[x, 0.0], &[0.0; 2]);
+    let reference = run_by(&round, ("verner98", 1e-12), start, 4.0);
+    let rests = event(&reference, "bowl", "accumulates").time;
+    for (unit, factor) in [(1.0, 1.0), (1.0, 1e6), (1e3, 1.0), (1e5, 1.0), (1e3, 1e-6)] {
+        let scene = Bowl {
+            radius: radius * unit,
+            gravity: gravity * unit,
+            factor,
+        };
+        for (method, tolerance) in methods_at(METHODS, [1e-9, 1e-12]) {
+            let start = state(&[x * unit, 0.0], &[0.0; 2]);
+            let motion = run_by(&scene, (method, tolerance), start, 4.0);
+            let what = format!("{scene:?} by {method} at {tolerance:e}");
+            let found = event(&motion, "bowl", "accumulates").time;
+            agree(&what, found, rests, 100.0 * tolerance);
+            for (found, expected) in motion
+                .final_state()
+                .q
+                .iter()
+                .zip(&reference.final_state().q)
+            {
+                agree(&what, found / unit, *expected, 1e3 * tolerance);
+            }
+        }
+    }
+}
+
+/// A body that lies on a shaken table, one that slides on the ground, and a ball.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, z, a, c, d, b),
+    define(place = shaken * sin(10 * t)),
+    kinetic = (der(x)^2 + der(y)^2 + der(z)^2 + der(a)^2 + der(c)^2 + der(d)^2 + der(b)^2) / 2,
+    potential = 9.81 * (z + d + b),
+    contact(table: z >= 0),
+    contact(ground: d >= 0),
+    contact(floor: b >= 0, restitution = 1/2),
+    friction(grip on table: slip = (der(x), der(y) - der(place)), static = 2/5, kinetic = 1/5),
+    friction(rub on ground: slip = (der(a), der(c)), static = 2/5, kinetic = 1/5),
+    start(go: b = height, der(y) = 10 * shaken, der(a) = 1),
+)]
+struct Apart {
+    shaken: f64,
+    height: f64,
+}
+
+/// The table holds its body by less than μₛ g: it goes with it, also while the bounces of the ball come to their end elsewhere.
+#[test]
+fn the_last_bounces_move_nothing_that_lies_elsewhere() {
+    for (shaken, height) in [(0.03, 0.01), (0.035, 0.02), (0.025, 0.015)] {
+        let scene = Apart { shaken, height };
+        for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+            let motion = run_by(&scene, (method, tolerance), scene.at(Apart::GO), 0.5);
+            let what = format!("{scene:?} by {method} at {tolerance:e}");
+            event(&motion, "floor", "accumulates");
+            let expected = shaken * 5.0_f64.sin();
+            agree(&what, motion.final_state().q[1], expected, 10.0 * tolerance);
+        }
+    }
+}

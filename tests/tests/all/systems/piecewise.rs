@@ -2,7 +2,9 @@
 
 use super::{PI, state};
 use lagrange_core::prelude::*;
-use lagrange_tests::{Random, agree, all_agree, certified, closure, run, run_by, times};
+use lagrange_tests::{
+    Random, TOLERANCES, agree, all_agree, certified, closure, methods_at, run, run_by, times,
+};
 
 /// A damped oscillator between two stops made with `max`.
 #[derive(Lagrangian, Clone, Debug)]
@@ -320,5 +322,45 @@ fn what_has_one_of_two_values_becomes_true_where_it_jumps() {
         let watched = events.filter(|e| matches!(e.kind, EventKind::Mark | EventKind::Stop));
         let found: Vec<f64> = watched.map(|event| event.time).collect();
         all_agree(method, &found, &[0.23, 0.46, 0.69], 1e-9);
+    }
+}
+
+/// A seat belt in a car that moves: a mass at its stop, in front of a spring that pushes one way, and across a brake that holds.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(u, w),
+    define(x = u + sway * sin(0.6*t + 0.5), y = w + sway * sin(0.6*t)),
+    kinetic = mass/2 * der(x)^2 + der(y)^2/2,
+    potential = stiff/2 * max(x - 3/100*y, 0)^2,
+    force(inert: if(t <= 0.1, 0, push) along der(x)),
+    friction(lock: slip = der(y), limit = 50000),
+    contact(seat: x >= 0),
+    start(sits: u = -sway * sin(1/2), der(u) = -sway * 0.6 * cos(1/2), der(w) = -sway * 0.6),
+)]
+struct Belt {
+    sway: f64,
+    mass: f64,
+    stiff: f64,
+    push: f64,
+}
+
+/// Squares of rounding in its kinetic energy are no kick; then x = (F/k)(1 − cos ωt).
+#[test]
+fn rounding_of_a_frame_that_moves_is_no_kick() {
+    for (sway, mass, stiff) in [(1.2, 70.0, 3e4), (0.7, 50.0, 2e4), (2.0, 80.0, 5e4)] {
+        let belt = Belt {
+            sway,
+            mass,
+            stiff,
+            push: 100.0,
+        };
+        let frequency = (stiff / mass).sqrt();
+        let x = belt.push / stiff * (1.0 - (frequency * 0.2).cos());
+        for (method, tolerance) in methods_at([Method::Auto], TOLERANCES) {
+            let motion = run_by(&belt, (method, tolerance), belt.at(Belt::SITS), 0.3);
+            let found = motion.final_state().q[0] + sway * (0.6_f64 * 0.3 + 0.5).sin();
+            let what = format!("{belt:?} by {method} at {tolerance:e}");
+            agree(&what, found, x, 10.0 * tolerance);
+        }
     }
 }

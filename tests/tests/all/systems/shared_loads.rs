@@ -700,3 +700,37 @@ fn what_holds_by_a_ratio_that_changes_lets_go_where_both_are_overcome() {
         }
     }
 }
+
+/// A plate on three feet, one of which comes nearer and nearer to the load.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y, p),
+    kinetic = der(y)^2 + 2/5 * der(p)^2,
+    potential = 8 * (y + at_load * p),
+    contact(left: y - p >= 0),
+    contact(middle: y + 2/5 * p >= 0),
+    contact(right: y + (1 - rate * t) * p >= 0),
+)]
+struct OnThreeFeet {
+    at_load: f64,
+    rate: f64,
+}
+
+/// It tips over the foot that has come under the load, also where a step begins just before that.
+#[test]
+fn a_plate_tips_where_a_foot_has_come_under_its_load() {
+    for tips in [0.524_3, 0.525, 0.7, 1.048_59, 1.048_8, 1.05, 1.1] {
+        let scene = OnThreeFeet {
+            at_load: 0.57,
+            rate: 0.43 / tips,
+        };
+        for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+            let start = state(&[0.0; 2], &[0.0; 2]);
+            let motion = run_by(&scene, (method, tolerance), start, 1.199);
+            let what = format!("{method} at {tolerance:e}");
+            assert_eq!(words(&motion)[..2], ["left lost", "middle lost"], "{what}");
+            agree(&what, times(&motion, "left", "lost")[0], tips, 1e-6);
+            certified(&what, &motion);
+        }
+    }
+}

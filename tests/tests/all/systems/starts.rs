@@ -1,7 +1,7 @@
 //! States that are made to satisfy their constraints: what is said of them wins over what rests, and rests only what friction holds.
 
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, event, run_by};
+use lagrange_tests::{METHODS, TOLERANCES, agree, event, methods_at, run_by};
 
 /// A crank drives a slider on a rough guide.
 #[derive(Lagrangian, Clone, Debug)]
@@ -261,6 +261,46 @@ fn a_slot_may_be_narrower_than_what_counts_as_zero() {
             let met = event(&run, "left", "impact").time;
             agree(&what, lost, begin, 10.0 * tolerance);
             agree(&what, met - begin, u / scene.rate, 10.0 * tolerance);
+        }
+    }
+}
+
+/// A mass above a small ball, told by the square of its distance.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y),
+    kinetic = der(y)^2 / 2,
+    potential = 9.81 * y,
+    contact(ball: factor * (y^2 - radius^2) >= 0),
+    start(above: y = 3 * radius),
+)]
+struct Above {
+    radius: f64,
+    factor: f64,
+}
+
+/// What counts as zero of a gap is what the errors of places make of it, whatever its unit: the mass falls from where it is.
+#[test]
+fn a_gap_is_as_small_as_the_way_that_it_stands_for() {
+    for (radius, factor) in [
+        (1e-5, 1.0),
+        (1e-4, 1.0),
+        (1e-3, 1e-4),
+        (0.1, 1e-10),
+        (2.0, 1e-12),
+    ] {
+        let scene = Above { radius, factor };
+        let falls = (4.0 * radius / 9.81_f64).sqrt();
+        for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+            let motion = run_by(
+                &scene,
+                (method, tolerance),
+                scene.at(Above::ABOVE),
+                2.0 * falls,
+            );
+            let what = format!("{scene:?} by {method} at {tolerance:e}");
+            let time = event(&motion, "ball", "impact").time;
+            agree(&what, time / falls, 1.0, 1e3 * tolerance);
         }
     }
 }

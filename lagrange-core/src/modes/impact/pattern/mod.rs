@@ -23,6 +23,8 @@ pub(super) use shares::Share;
 pub(super) const ROUNDING: f64 = 1e-13;
 /// The same for the terms a·v, which are summed before.
 pub(super) const TERMS: f64 = 4e-16;
+/// The same for what an impulse does in other rows, beside what it does in its own: it comes from a solution with all inertias.
+const ANSWERS: f64 = 4e-15;
 
 /// What a friction does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -228,7 +230,6 @@ impl<T: Scalar> Pattern<T> {
     pub(super) fn move_on(&mut self, c: &Collision<T>, phase: &Phase<T>) {
         self.after.clear();
         self.noise.clear();
-        // What an impulse does in other rows is known to rounding of what it does in its own.
         let effort = c.effort(&self.impulses);
         for i in 0..c.size {
             let (mut rate, mut size) = (phase.rates[i], phase.rates[i].value().abs());
@@ -238,8 +239,8 @@ impl<T: Scalar> Pattern<T> {
                 size += part.value().abs();
             }
             self.after.push(rate);
-            let terms = rounding::<T>(TERMS) * (c.terms[i] + c.strength(i) * effort);
-            self.noise.push(rounding::<T>(ROUNDING) * size + terms);
+            let noise = ROUNDING * size + TERMS * c.terms[i] + ANSWERS * c.strength(i) * effort;
+            self.noise.push(rounding::<T>(noise));
         }
     }
 }
