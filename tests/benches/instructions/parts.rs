@@ -41,6 +41,9 @@ const OTHERS: [Part; 6] = [
     ),
 ];
 
+/// What belongs to no part.
+const ELSE: &str = "anything else";
+
 /// A scene: its name, the figures of the day when the budget was made (a step, a switch, a change of parameters, the whole run; not a number where there is
 /// none), and its runs.
 struct Scene {
@@ -91,10 +94,13 @@ pub fn work(words: &[String]) {
 
 /// Prints the table of every scene.
 pub fn print() {
+    let parts = STEP.iter().chain(&OTHERS).map(|(name, _)| *name);
+    let mut missing: Vec<&str> = parts.collect();
     for (index, scene) in SCENES.iter().enumerate() {
         let [steps, switches] = (scene.run)(1);
         let (long, short) = (Profile::count(index, 2 * RUNS), Profile::count(index, RUNS));
         let cost = |part: &str| (long.of(part) - short.of(part)) / RUNS as f64;
+        missing.retain(|part| cost(part) == 0.0);
         let [step, switch, change, whole] = scene.before;
         println!("\n{}: {steps} steps, {switches} switches", scene.name);
         let columns = ["", "a run", "each", "before", "budget"];
@@ -128,12 +134,18 @@ pub fn print() {
                 &[switch, BUDGET[1]],
             );
         }
-        row("start", cost("start"), 1, &[]);
+        for part in ["rest of the start", ELSE] {
+            row(part, cost(part), 1, &[]);
+        }
         let part = "change of parameters";
         row(part, cost(part), 1, &[change, BUDGET[2]]);
         let all = (long.total() - short.total()) / RUNS as f64;
         row("= a run", all, 1, &[whole]);
     }
+    assert!(
+        missing.is_empty(),
+        "no function is called as these parts say: {missing:?}"
+    );
 }
 
 /// Prints what a part costs in a run and each of so many times, and numbers to compare that with.
@@ -223,7 +235,7 @@ impl Profile {
         self.descend(
             main,
             self.inclusive(main),
-            "else",
+            ELSE,
             &mut Vec::new(),
             &mut parts,
         );
