@@ -69,12 +69,8 @@ impl Sizes {
     /// tells how heavy a place is that it is told to be at.
     fn take_followers<T: Scalar>(&mut self, dynamics: &Dynamics<T>) {
         let d = dynamics.description();
-        let of_attitude = |j: usize| {
-            let mut quaternions = self.quaternions.iter();
-            quaternions.any(|&[first, _]| j.wrapping_sub(first) < QUATERNION)
-        };
         let mut idle: Vec<usize> = (0..self.mobility.len())
-            .filter(|&j| self.mobility[j] == 0.0 && !of_attitude(j))
+            .filter(|&j| self.mobility[j] == 0.0 && !self.is_of_attitude(j))
             .collect();
         let number = |place: ValueRef| dynamics.motion(place).value();
         while !idle.is_empty() {
@@ -247,15 +243,19 @@ impl Sizes {
         }
     }
 
+    fn is_of_attitude(&self, j: usize) -> bool {
+        let mut quaternions = self.quaternions.iter();
+        quaternions.any(|&[first, _]| j.wrapping_sub(first) < QUATERNION)
+    }
+
     /// Compliance of a row: its acceleration by a force of 1 along it.
     pub fn compliance<T: Scalar>(&self, row: usize, dynamics: &Dynamics<T>) -> f64 {
         let rows = dynamics.description().rows;
         let number = |place: ValueRef| dynamics.motion(place).value();
-        let is_of_turns = |j: usize| {
-            let mut quaternions = self.quaternions.iter();
-            quaternions.any(|&[first, _]| j.wrapping_sub(first) < QUATERNION)
-        };
-        let parts = rows[row].jacobian.iter().filter(|&&(j, _)| !is_of_turns(j));
+        let parts = rows[row]
+            .jacobian
+            .iter()
+            .filter(|&&(j, _)| !self.is_of_attitude(j));
         let parts = parts.map(|&(j, place)| number(place).powi(2) * self.mobility[j]);
         let mut compliance: f64 = parts.sum();
         for &[first, length] in &self.quaternions {
