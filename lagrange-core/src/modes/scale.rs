@@ -181,52 +181,6 @@ impl Sizes {
         self.row(row, dynamics).acceleration
     }
 
-    /// Size of what the force of each row that acts holds in balance in the equation that says it best: forcing, inertia and other forces; of a
-    /// friction also what it is a part of.
-    pub fn held<T: Scalar>(&self, dynamics: &Dynamics<T>) -> Vec<f64> {
-        let d = dynamics.description();
-        let number = |place: ValueRef| dynamics.motion(place).value().abs();
-        let forcing = d.forcing.iter();
-        let mut terms: Vec<f64> = forcing.map(|&place| number(place)).collect();
-        let mut inert = |i: usize, j: usize, mass: f64| {
-            terms[i] += mass * dynamics.acceleration()[j].value().abs();
-        };
-        for &(i, j, place) in d.mass {
-            inert(i, j, number(place));
-            if i != j {
-                inert(j, i, number(place));
-            }
-        }
-        let force = |row: usize| dynamics.force(row).value().abs();
-        for (row, declared) in d.rows.iter().enumerate() {
-            for &(j, place) in declared.jacobian {
-                terms[j] += number(place) * force(row);
-            }
-        }
-        let mut held = vec![0.0; d.rows.len()];
-        for &row in dynamics.acting_rows() {
-            let equations = d.rows[row].jacobian.iter();
-            let others = equations.filter_map(|&(j, place)| {
-                let share = number(place);
-                (share > 0.0).then(|| terms[j] / share - force(row))
-            });
-            let least = others.fold(f64::INFINITY, f64::min);
-            held[row] = if least.is_finite() {
-                least.max(0.0)
-            } else {
-                0.0
-            };
-        }
-        for friction in d.frictions {
-            let normal = friction.normal.rows(d).map(|row| held[row]);
-            let part = number(friction.kinetic_coefficient) * normal.sum::<f64>();
-            for size in &mut held[friction.rows()] {
-                *size += part;
-            }
-        }
-        held
-    }
-
     fn row<T: Scalar>(&self, row: usize, dynamics: &Dynamics<T>) -> Row {
         let compliance = self.compliance(row, dynamics);
         let bias = dynamics.motion(dynamics.description().rows[row].bias);
@@ -313,6 +267,52 @@ impl Sizes {
         let force = rows.map(|row| self.row(row, dynamics).force);
         force.fold(0.0, f64::max) + self.friction(f, friction.static_coefficient, dynamics)
     }
+}
+
+/// Size of what the force of each row that acts holds in balance in the equation that says it best: forcing, inertia and other forces; of a
+/// friction also what it is a part of.
+pub fn held<T: Scalar>(dynamics: &Dynamics<T>) -> Vec<f64> {
+    let d = dynamics.description();
+    let number = |place: ValueRef| dynamics.motion(place).value().abs();
+    let forcing = d.forcing.iter();
+    let mut terms: Vec<f64> = forcing.map(|&place| number(place)).collect();
+    let mut inert = |i: usize, j: usize, mass: f64| {
+        terms[i] += mass * dynamics.acceleration()[j].value().abs();
+    };
+    for &(i, j, place) in d.mass {
+        inert(i, j, number(place));
+        if i != j {
+            inert(j, i, number(place));
+        }
+    }
+    let force = |row: usize| dynamics.force(row).value().abs();
+    for (row, declared) in d.rows.iter().enumerate() {
+        for &(j, place) in declared.jacobian {
+            terms[j] += number(place) * force(row);
+        }
+    }
+    let mut held = vec![0.0; d.rows.len()];
+    for &row in dynamics.acting_rows() {
+        let equations = d.rows[row].jacobian.iter();
+        let others = equations.filter_map(|&(j, place)| {
+            let share = number(place);
+            (share > 0.0).then(|| terms[j] / share - force(row))
+        });
+        let least = others.fold(f64::INFINITY, f64::min);
+        held[row] = if least.is_finite() {
+            least.max(0.0)
+        } else {
+            0.0
+        };
+    }
+    for friction in d.frictions {
+        let normal = friction.normal.rows(d).map(|row| held[row]);
+        let part = number(friction.kinetic_coefficient) * normal.sum::<f64>();
+        for size in &mut held[friction.rows()] {
+            *size += part;
+        }
+    }
+    held
 }
 
 /// The unit of the cone of friction `f` as a factor, and in it the sum of the force and of its limit.

@@ -12,6 +12,7 @@ use crate::mode::{Direction, Mode};
 use crate::modes::exact::length;
 use crate::modes::guard;
 use crate::modes::redundant::RedundantForces;
+use crate::modes::scale;
 use crate::system::{Description, Friction, Normal, ValueRef};
 
 /// Everything known at one time.
@@ -174,7 +175,11 @@ impl<'a, T: Scalar> Sampler<'a, T> {
     pub(crate) fn evaluate_after(&mut self, event: &Event<T>) -> Result<Instant<T>, Error> {
         let n = self.trajectory.description().coordinates.len();
         event.state_after.check_dimension(n)?;
-        self.evaluate(event.time, &event.after, &event.state_after)
+        // Slips that begin have the directions of the mode: those of the state are rounding.
+        self.headed = event.after.has_incipient_slip();
+        let instant = self.evaluate(event.time, &event.after, &event.state_after);
+        self.headed = false;
+        instant
     }
 
     /// The equations of motion at the instant that was asked for last: [`Dynamics::mass_matrix`], [`Dynamics::constraint_jacobian`].
@@ -345,7 +350,7 @@ pub(crate) fn instant<T: Scalar>(
         acceleration: dynamics.acceleration().to_vec(),
         forces,
         undetermined,
-        held: redundant.held(dynamics),
+        held: scale::held(dynamics).into_iter().map(T::from_f64).collect(),
         gaps: contacts.map(|place| dynamics.motion(place)).collect(),
         slips: frictions
             .map(|row| dynamics.motion(d.rows[row].velocity))

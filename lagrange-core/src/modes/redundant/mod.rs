@@ -285,13 +285,6 @@ impl<T: Scalar> RedundantForces<T> {
         self.forces(dynamics)
     }
 
-    /// The size of what the force of each row holds in balance at the last value.
-    pub fn held(&mut self, dynamics: &Dynamics<T>) -> Vec<T> {
-        self.sizes.take(dynamics);
-        let held = self.sizes.held(dynamics);
-        held.into_iter().map(T::from_f64).collect()
-    }
-
     /// The forces of all rows: those of least norm within the bounds, or as near to that as any are.
     fn forces(&self, dynamics: &Dynamics<T>) -> Vec<T> {
         if self.least.forces.is_empty() {

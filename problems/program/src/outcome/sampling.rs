@@ -145,9 +145,10 @@ impl<'a> Reader<'a> {
     }
 
     fn after(&mut self, event: &Event<f64>) -> Option<Sample> {
+        let instant = self.sampler.after(event).ok()?;
         // A slip in space that begins is under way at once.
         let mode = event.after.under_way();
-        self.sample(event.time, event.time, 0, &mode)
+        Some(self.of_instant(event.time, 0, instant)).filter(|sample| sample.mode == mode)
     }
 
     /// What is at `read`, as a sample at `time`; nothing if another mode is there.

@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, event, root, run};
+use lagrange_tests::{METHODS, TOLERANCES, agree, event, methods_at, root, run, run_by};
 
 /// A sledge whose inertia differs along and across, pushed ever harder.
 #[derive(Lagrangian, Clone, Debug)]
@@ -52,5 +52,43 @@ fn slip_begins_along_its_own_acceleration() {
         let after = 1e-5;
         let now = motion.sampler().at(begin + after).expect("within");
         agree("speed", now.state.v[i] / after, alpha * u[i], 1e-4);
+    }
+}
+
+/// A mass that goes with a turning table is pulled outwards ever more.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    friction(rub: slip = (der(x) + rate*y, der(y) - rate*x), normal = 9.81, static = mu, kinetic = mu/2),
+    force(hand: (t, t/3) at (x, y)),
+    observe(along_x = rub[0], along_y = rub[1]),
+    start(turns: x = radius, der(y) = rate * radius),
+)]
+struct Turning {
+    rate: f64,
+    radius: f64,
+    mu: f64,
+}
+
+/// As its slip begins friction falls to half, in the same direction: not in that of what rounding has left of the slip.
+#[test]
+fn what_is_read_as_a_slip_begins_has_its_direction() {
+    for (rate, radius, mu) in [(1.3, 0.7, 0.4), (2.1, 0.37, 0.3), (0.7, 1.9, 0.5)] {
+        let scene = Turning { rate, radius, mu };
+        for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+            let motion = run_by(&scene, (method, tolerance), scene.at(Turning::TURNS), 10.0);
+            let what = format!("{scene:?} by {method} at {tolerance:e}");
+            let slips = event(&motion, "rub", "slips");
+            let mut sampler = motion.sampler();
+            let [before, after] = [
+                sampler.before(slips).expect("recorded"),
+                sampler.after(slips).expect("recorded"),
+            ];
+            for output in [Turning::ALONG_X, Turning::ALONG_Y] {
+                let expected = before.observe(output) / 2.0;
+                agree(&what, after.observe(output), expected, 10.0 * tolerance);
+            }
+        }
     }
 }
