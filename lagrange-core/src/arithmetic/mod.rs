@@ -14,7 +14,9 @@ mod scalar;
 mod tests;
 
 pub use dual::Dual;
-pub(crate) use number::{LIGHT, Number, epsilon, is_spread, positive_definite, rounding};
+pub(crate) use number::{
+    GOLDEN, LIGHT, Number, epsilon, is_spread, positive_definite, rounding, uneven,
+};
 pub(crate) use pack::Pack;
 pub(crate) use registers::Registers;
 

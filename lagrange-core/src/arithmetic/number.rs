@@ -61,6 +61,14 @@ pub trait Number:
     fn is_safe_pivot(pivot: Self, before: Self, below: &[Self]) -> bool;
 }
 
+/// An irrational step: the fractions of its multiples lie apart, however many there are.
+pub(crate) const GOLDEN: f64 = 0.618_033_988_749_895;
+
+/// A part between 0.5 and 1.5 for each index by an irrational step: no two of them are in a simple ratio.
+pub(crate) fn uneven(index: usize, step: f64) -> f64 {
+    0.5 + (index as f64 * step).fract()
+}
+
 /// What rounding leaves: a share that is meant for double precision, in units of the last place of `T`.
 #[inline(always)]
 pub(crate) fn rounding<T: Scalar>(of_double: f64) -> f64 {

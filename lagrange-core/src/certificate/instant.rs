@@ -93,10 +93,9 @@ impl Equations {
     pub fn examine_bounds(&mut self, at: Situation<'_>, mode: &Mode, findings: &mut Findings) {
         let blur = self.blur_of_directions(at, mode, findings.tolerance);
         let shared = if at.shared { SHARED } else { 0.0 };
-        let largest = self.largest.clone();
-        if at.shared {
+        let largest = at.shared.then(|| self.largest.clone());
+        if let Some(mut loads) = largest.clone() {
             // A share may be small, or nothing, beside the load that it is a part of.
-            let mut loads = core::mem::take(&mut self.largest);
             self.spread(&mut loads, mode);
             self.largest = loads;
         }
@@ -127,7 +126,9 @@ impl Equations {
             }
             findings.book(Subject::Cones, beyond, size, at.time, name);
         }
-        self.largest = largest;
+        if let Some(largest) = largest {
+            self.largest = largest;
+        }
     }
 
     /// What rounding makes of a force along a value where hardly any acts: the force that would take away a second's rounding error of velocities beside 1.

@@ -1,7 +1,7 @@
 //! How large the terms of the declared equations are at a state: what rounding errors, and errors of the state, are relative to.
 
 use super::equations::{Equations, Situation, change};
-use crate::effects::Item;
+use crate::arithmetic::{GOLDEN, uneven};
 use crate::error::Level;
 use crate::mode::Mode;
 use crate::trajectory::State;
@@ -23,12 +23,10 @@ impl Equations {
         /// Changes of the state, whose rounding errors do not matter and which are small enough to be linear.
         const CHANGE: f64 = 1.0 / 1_048_576.0;
         // No two change alike, so that no difference of coordinates stays as it is.
-        let part = |i: usize| CHANGE * (0.5 + (0.618_033_988_749_895 * i as f64).fract());
         let changed = |x: &[f64]| -> Vec<f64> {
-            let changed = x.iter().enumerate();
-            let changed = changed.map(|(i, x)| match i % 2 {
-                0 => x + part(i) * (1.0 + x.abs()),
-                _ => x - part(i) * (1.0 + x.abs()),
+            let changed = x.iter().enumerate().map(|(i, x)| {
+                let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
+                x + sign * CHANGE * uneven(i, GOLDEN) * (1.0 + x.abs())
             });
             changed.collect()
         };
@@ -169,12 +167,18 @@ impl Equations {
     /// attitude that is 1, is moved by the rows that act on it.
     fn measure_swiftness(&mut self, at: Situation<'_>, mode: &Mode) {
         self.balance(at);
+        let energies: Vec<usize> = self.energies().map(|(value, _)| value).collect();
         let mut v = vec![0.0; at.v.len()];
         for j in 0..v.len() {
             v[j] = 1.0;
             let alone = Situation { v: &v, ..at };
             self.balancing.evaluate(alone.inputs(&self.zeros));
-            self.swiftness[j] = self.momentum_of(j);
+            let momenta = energies.iter().map(|&value| {
+                self.balancing
+                    .gradient_size(value, 0, &mut self.sizes_along);
+                self.sizes_along[j][1]
+            });
+            self.swiftness[j] = momenta.sum();
             v[j] = 0.0;
         }
         let without: Vec<usize> = (0..at.v.len())
@@ -186,20 +190,6 @@ impl Equations {
         if !without.is_empty() {
             self.measure_swiftness_by_rows(&without, at, mode);
         }
-    }
-
-    /// Momentum of a coordinate at the state that was balanced, with the absolute values of its terms.
-    fn momentum_of(&mut self, j: usize) -> f64 {
-        let declaration = self.declaration;
-        let kinetic = declaration.kinetic.iter().enumerate();
-        let taking = kinetic.filter(|(i, _)| self.effects.includes(self.d, Item::Kinetic(*i)));
-        let taking: Vec<usize> = taking.map(|(_, &value)| value).collect();
-        let momenta = taking.into_iter().map(|value| {
-            self.balancing
-                .gradient_size(value, 0, &mut self.sizes_along);
-            self.sizes_along[j][1]
-        });
-        momenta.sum()
     }
 
     /// Accelerations of coordinates without inertia that balance those of the others in the rows that act, Σ aₖ v̇ₖ ≈ 0: by least squares over

@@ -4,8 +4,8 @@ use super::Operations;
 use super::loading::{collect, shape};
 use super::output_mask::OutputMask;
 use super::shape::{Asked, Extent, FORCES, MOTION, Part, Planned, REPORT, SYSTEM, Shape};
-use crate::arithmetic::Scalar;
 use crate::arithmetic::products::Row;
+use crate::arithmetic::{GOLDEN, Scalar, uneven};
 use crate::program::{Register, Series};
 use crate::system::ErasedSystem;
 use std::sync::Arc;
@@ -97,9 +97,7 @@ impl<T: Scalar> Interpreted<T> {
         [-BESIDE, BESIDE].map(|step| {
             let mut registers = self.registers.clone();
             for (i, x) in registers[2..2 + 2 * n].iter_mut().enumerate() {
-                // Irrational steps: no two changes are in a simple ratio.
-                let weight = 0.5 + (i as f64 * 0.618_033_988_749).fract();
-                *x += T::from_f64(step * weight);
+                *x += T::from_f64(step * uneven(i, GOLDEN));
             }
             let program = self.shape.program(Extent::Series);
             for part in [MOTION, SYSTEM, FORCES, REPORT] {

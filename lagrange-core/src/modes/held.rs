@@ -4,7 +4,7 @@
 //! branch is the one that is declared for equality. States beside the present one that are moved back onto these rows tell it from
 //! a guard that only happens to vanish.
 
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{GOLDEN, Scalar, uneven};
 use crate::dynamics::{Dynamics, OutputMask};
 use crate::modes::facts::EvaluationPoint;
 
@@ -16,7 +16,7 @@ const KEPT: f64 = 1e-7;
 const SMALL: f64 = 1e-2;
 /// Irrational steps by which time and all coordinates and velocities are moved by different parts in the two directions in which states are looked
 /// at: no two of them move alike, however many there are.
-const STEPS: [f64; 2] = [0.618_033_988_749_895, 0.414_213_562_373_095];
+const STEPS: [f64; 2] = [GOLDEN, 0.414_213_562_373_095];
 
 /// Which branches are held, with the memory to find out.
 #[derive(Clone, Debug, Default)]
@@ -79,10 +79,10 @@ impl<T: Scalar> HeldBranches<T> {
         step: f64,
     ) {
         let branches = dynamics.description().branches;
-        let mut moved = 0.0;
+        let mut moved = 0;
         let mut beside = |x: &T| {
-            moved += 1.0;
-            let part = BESIDE * (0.5 + (moved * step).fract());
+            moved += 1;
+            let part = BESIDE * uneven(moved, step);
             *x + T::from_f64(part * x.value().abs().max(1.0))
         };
         let t = beside(&at.t);

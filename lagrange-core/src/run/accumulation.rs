@@ -346,16 +346,13 @@ impl<T: Scalar> Run<T> {
         let mut near = core::mem::take(&mut self.switcher.near);
         near.clear();
         near.extend((0..d.contacts.len()).filter(|&c| facts.touching[c]));
-        let rubs = |f: &usize| near.iter().any(|&c| d.frictions[*f].normal.is_of(c));
-        let rubbing = || (0..d.frictions.len()).filter(rubs);
         let mode = &mut self.switcher.scratch_mode;
         mode.clone_from(&self.now.mode);
         // What lies where nothing strikes goes on as it did.
         for &c in near.iter().filter(|&&c| outcome.struck[c]) {
             mode.contacts[c] = false;
-            let rubs = |f: &usize| d.frictions[*f].normal.is_of(c);
-            let rubbing = (0..d.frictions.len()).filter(rubs);
-            rubbing.for_each(|f| mode.frictions[f] = FrictionMode::Inactive);
+            d.frictions_on(c)
+                .for_each(|f| mode.frictions[f] = FrictionMode::Inactive);
         }
         self.dynamics.set_mode(&self.switcher.scratch_mode);
         self.evaluate_all_rows()?;
@@ -380,7 +377,8 @@ impl<T: Scalar> Run<T> {
         near.iter()
             .for_each(|&c| self.switcher.scratch_mode.contacts[c] = true);
         // What comes to rest here does so together with what it lifts.
-        rubbing().filter(|&f| rest.sticks[f]).for_each(|f| {
+        let rubbing = near.iter().flat_map(|&c| d.frictions_on(c));
+        rubbing.filter(|&f| rest.sticks[f]).for_each(|f| {
             self.switcher.scratch_mode.frictions[f] = FrictionMode::Stick;
         });
         self.dynamics.set_mode(&self.switcher.scratch_mode);

@@ -30,8 +30,7 @@ impl<T: Scalar> Run<T> {
         for c in contacts {
             if self.may_touch(c, facts) && self.touches(c, off) {
                 self.end(c, facts);
-                let rubs = |f: &usize| d.frictions[*f].normal.is_of(c);
-                for f in (0..d.frictions.len()).filter(rubs) {
+                for f in d.frictions_on(c) {
                     facts.resting[f] = self.slip_vanishes(f);
                 }
             }

@@ -92,6 +92,12 @@ pub struct Description {
 }
 
 impl Description {
+    /// The frictions that a contact presses.
+    pub(crate) fn frictions_on(&self, contact: usize) -> impl Iterator<Item = usize> + '_ {
+        let frictions = self.frictions.iter().enumerate();
+        frictions.filter_map(move |(f, friction)| friction.normal.is_of(contact).then_some(f))
+    }
+
     /// Whether anything but outputs, stops and marks contains branch `index`.
     pub(crate) fn branch_moves(&self, index: usize) -> bool {
         let reported = |user: &usize| {
