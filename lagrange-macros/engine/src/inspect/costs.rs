@@ -50,7 +50,7 @@ impl Counts<'_> {
             with_guards,
             emitted: own.map(|own| Emitted {
                 constants: own.constants.outputs,
-                unknowns: own.system.matrix.len(),
+                unknowns: own.results.system.matrix.len(),
                 accelerations: own.operations(Phase::Accelerations),
                 whole: own.operations(Phase::Outputs),
                 convolutions: Plan::new(own).convolutions(),

@@ -109,20 +109,7 @@ pub fn plan(mut equations: Equations) -> Program {
     let starts = starts(&mut equations.system, &parameters);
     let modes = mode::programs(&mut equations);
 
-    let targets: Vec<Target> = constants
-        .sources
-        .into_iter()
-        .map(Target::of_constant)
-        .collect();
-    let pool = &mut equations.system.pool;
-    let constants = tape(
-        pool,
-        &mut Constants::closed(),
-        &parameters,
-        Fixed::Numbers,
-        None,
-        &targets,
-    );
+    let constants = constants_tape(&mut equations.system.pool, constants, &parameters);
     Program {
         equations,
         places,
@@ -207,6 +194,18 @@ fn starts(system: &mut System, parameters: &SortedMap<Symbol, usize>) -> Vec<Sta
         starts.push(Start { tape, targets });
     }
     starts
+}
+
+/// The program of the constants that other tapes have asked for.
+fn constants_tape(
+    pool: &mut Pool,
+    constants: Constants,
+    parameters: &SortedMap<Symbol, usize>,
+) -> Tape {
+    let sources = constants.sources.into_iter();
+    let targets: Vec<Target> = sources.map(Target::of_constant).collect();
+    let none = &mut Constants::closed();
+    tape(pool, none, parameters, Fixed::Numbers, None, &targets)
 }
 
 /// One tape for all targets.

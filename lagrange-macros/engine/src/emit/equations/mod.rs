@@ -110,12 +110,12 @@ fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> To
         None => quote!(None),
     };
     let system = &program.equations.system;
-    let pins = mode.pins.iter().map(|&(j, place)| {
+    let pins = mode.results.pins.iter().map(|&(j, place)| {
         let (j, place) = (index(j), names::place(system, place));
         quote!((#j, #place))
     });
     let (mut motion, mut report) = (Vec::new(), Vec::new());
-    for extra in &mode.extras {
+    for extra in &mode.results.extras {
         let (Some(row), ValueRef::Node(node)) =
             (plan.extra_row(mode, extra), program.place(extra.output))
         else {
@@ -177,12 +177,12 @@ fn mode_constants(program: &Program, mode: &ModeProgram) -> TokenStream {
         }
         ValueRef::Zero | ValueRef::Node(_) => quote!(0.0),
     };
-    let tests = mode.divisors.iter().map(|(pivot, against)| {
+    let tests = mode.results.divisors.iter().map(|(pivot, against)| {
         let pivot = place(pivot);
         let against = against.iter().map(place);
         quote!(#core::__private::equations::is_safe_divisor(#pivot, &[#(#against),*]))
     });
-    let positive = mode.positive.iter().map(|place| {
+    let positive = mode.results.system.positive.iter().map(|place| {
         let inertia = match place {
             ValueRef::Constant(at) => {
                 let at = index(*at);

@@ -20,7 +20,7 @@ pub fn function(
 ) -> TokenStream {
     let system = &program.equations.system;
     let writer = Writer::new(system, mode, names::crossing(&mode.tape));
-    let elimination = Elimination::new(&writer, &mode.system);
+    let elimination = Elimination::new(&writer, &mode.results.system);
     let (solve, solution) = elimination.solve_system(&writer);
     let factors = &elimination.code;
     let unknowns = solution.iter().enumerate().map(|(i, x)| {
@@ -37,14 +37,24 @@ pub fn function(
     let [assembly, accelerations, forces] = [Phase::Assembly, Phase::Accelerations, Phase::Forces]
         .map(|phase| blocks(&writer, phase, nothing));
     let (rates, values) = (local("rates"), local("values"));
-    let rates_of = mode.accelerations.iter().enumerate().map(|(j, place)| {
-        let (j, value) = (index(j), writer.place(*place));
-        quote!(#rates[#j] = #value;)
-    });
-    let of_rows = mode.forces.iter().enumerate().filter_map(|(r, place)| {
-        let (row, value) = (index(force_row(mode, r)), writer.place((*place)?));
-        Some(quote!(#values[#row] = #value;))
-    });
+    let rates_of = mode
+        .results
+        .accelerations
+        .iter()
+        .enumerate()
+        .map(|(j, place)| {
+            let (j, value) = (index(j), writer.place(*place));
+            quote!(#rates[#j] = #value;)
+        });
+    let of_rows = mode
+        .results
+        .forces
+        .iter()
+        .enumerate()
+        .filter_map(|(r, place)| {
+            let (row, value) = (index(force_row(mode, r)), writer.place((*place)?));
+            Some(quote!(#values[#row] = #value;))
+        });
     let results = results(mode).into_iter().map(|(value, place)| {
         let (name, result) = (writer.value(value), writer.place(place));
         quote!(let #name = #result;)
@@ -139,7 +149,11 @@ fn projection(
     let mut needs = OutputMask::default();
     for &row in &mode.kept {
         let rate = structure.rows[row].velocity;
-        let extra = mode.extras.iter().find(|extra| extra.output == rate);
+        let extra = mode
+            .results
+            .extras
+            .iter()
+            .find(|extra| extra.output == rate);
         let at = extra.and_then(|extra| plan.extra_row(mode, extra));
         right.push(at.map(|at| {
             let at = index(at);
@@ -160,7 +174,7 @@ fn projection(
 
 /// What guards read beside the state and the forces, and in which row of a series it stands.
 fn kept(mode: &ModeProgram, plan: &Plan) -> SortedMap<ValueRef, usize> {
-    let extras = mode.extras.iter();
+    let extras = mode.results.extras.iter();
     extras
         .filter_map(|extra| Some((extra.place, plan.extra_row(mode, extra)?)))
         .filter(|(_, row)| *row > zero_row(mode))
@@ -189,9 +203,9 @@ pub fn in_block(block: &Block, body: TokenStream) -> TokenStream {
 
 /// The inputs of the last phase: accelerations and forces.
 pub fn results(mode: &ModeProgram) -> Vec<(Value, ValueRef)> {
-    let accelerations = mode.accelerations.iter().enumerate();
+    let accelerations = mode.results.accelerations.iter().enumerate();
     let accelerations = accelerations.map(|(j, place)| (mode.inputs.acceleration(j), *place));
-    let forces = mode.forces.iter().enumerate();
+    let forces = mode.results.forces.iter().enumerate();
     let forces = forces.map(|(r, place)| (mode.inputs.force(r), place.unwrap_or(ValueRef::Zero)));
     let read = names::read(&mode.tape);
     accelerations

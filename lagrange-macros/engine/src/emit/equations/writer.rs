@@ -42,7 +42,7 @@ fn locals(system: &System, mode: &ModeProgram) -> Locals {
             ValueRef::Node(output) => written.get(output) == Some(&mode.inputs.unknown(i)),
             ValueRef::Zero | ValueRef::Constant(_) => false,
         };
-        match mode.accelerations.iter().position(is_found) {
+        match mode.results.accelerations.iter().position(is_found) {
             Some(j) => format!("a_{}", system.coordinates[j].name.text),
             None => format!("x_{i}"),
         }

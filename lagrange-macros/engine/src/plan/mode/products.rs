@@ -78,7 +78,7 @@ pub fn force_row(mode: &ModeProgram, r: usize) -> usize {
 
 /// The row after the forces, which stays zero.
 pub fn zero_row(mode: &ModeProgram) -> usize {
-    force_row(mode, mode.forces.len())
+    force_row(mode, mode.results.forces.len())
 }
 
 impl Plan {
@@ -116,7 +116,7 @@ impl Plan {
             plan.rows_of
                 .insert(Row::Value(mode.inputs.velocity(j)), n + j);
         }
-        for (r, force) in mode.forces.iter().enumerate() {
+        for (r, force) in mode.results.forces.iter().enumerate() {
             if force.is_some() {
                 plan.rows_of
                     .insert(Row::Value(mode.inputs.force(r)), force_row(mode, r));
@@ -129,7 +129,7 @@ impl Plan {
         plan.groups += plan.optional.len();
         let optional = plan.optional.iter().map(|group| group.products.len());
         plan.products += optional.sum::<usize>();
-        for extra in &mode.extras {
+        for extra in &mode.results.extras {
             let row = match extra.place {
                 ValueRef::Node(output) => plan.row_of_output(output),
                 ValueRef::Constant(at) => Row::Fixed(at),
@@ -319,9 +319,9 @@ impl Plan {
     /// The products of the linear system: (row, column, Kᵢⱼ ∗ wⱼ).
     pub fn system_products(&self, mode: &ModeProgram) -> Vec<(usize, usize, Product)> {
         let mut products = Vec::new();
-        for (i, row) in mode.system.matrix.iter().enumerate() {
+        for (i, row) in mode.results.system.matrix.iter().enumerate() {
             for (j, place) in row.iter().enumerate() {
-                if !mode.system.is_balanced(i, j)
+                if !mode.results.system.is_balanced(i, j)
                     && let ValueRef::Node(output) = *place
                     && self.output_varies(output)
                 {

@@ -22,6 +22,14 @@ pub(super) struct Divisor {
     pub against: Vec<ExprId>,
 }
 
+impl Divisor {
+    /// Both as sums.
+    pub fn sums(&self, pool: &Pool) -> (Masked, Vec<Masked>) {
+        let sum = |&e: &ExprId| Masked::always(pool, e);
+        (sum(&self.pivot), self.against.iter().map(sum).collect())
+    }
+}
+
 /// The balance that gives the force of an eliminated row.
 #[derive(Clone, Debug)]
 pub(super) struct Solved {
@@ -226,6 +234,11 @@ impl Reduced {
             let against = row.filter(|&e| e != pivot).collect();
             self.divisors.push(Divisor { pivot, against });
         }
+    }
+
+    /// The unknown that is the acceleration of this coordinate.
+    pub fn index(&self, coordinate: usize) -> Option<usize> {
+        self.free.iter().position(|&free| free == coordinate)
     }
 
     /// Row of the reduced inertia: Σⱼ mass[j] Z[j].

@@ -1,7 +1,6 @@
 //! Blocks by phase: each operation runs as late as the first phase that needs it allows.
 
 use crate::plan::tape::{Block, Tape};
-use crate::sorted::SortedSet;
 
 /// When a block runs.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -26,29 +25,23 @@ const PHASES: [Phase; 5] = [
     Phase::Outputs,
 ];
 
-/// Number of the last phase.
-const LAST: usize = PHASES.len() - 1;
-
-/// Puts the blocks of a tape into phases, of which all but the last have the outputs `goals`; returns the phase of each.
-pub(super) fn arrange(tape: &mut Tape, goals: &[SortedSet<usize>; LAST]) -> Vec<Phase> {
-    let phase_of_output = |output: usize| {
-        goals
-            .iter()
-            .position(|goal| goal.contains(&output))
-            .unwrap_or(LAST)
-    };
+/// Puts the blocks of a tape into phases, given at the end of which each output must be known; returns the phase of each block.
+pub(super) fn arrange(tape: &mut Tape, of_output: &[Phase]) -> Vec<Phase> {
     // The earliest phase that reads each value.
-    let mut read = vec![LAST; tape.values];
+    let mut read = vec![Phase::Outputs; tape.values];
     for write in tape.blocks.iter().flat_map(|block| &block.writes) {
         let first = &mut read[write.value.0];
-        *first = phase_of_output(write.output).min(*first);
+        *first = of_output[write.output].min(*first);
     }
-    let mut phases: Vec<Vec<usize>> = Vec::with_capacity(tape.blocks.len());
+    let mut phases: Vec<Vec<Phase>> = Vec::with_capacity(tape.blocks.len());
     for block in tape.blocks.iter().rev() {
         let mut own = Vec::with_capacity(block.steps.len());
         for step in block.steps.iter().rev() {
             let values = step.value.0..step.value.0 + step.operation.values();
-            let phase = values.map(|value| read[value]).min().unwrap_or(LAST);
+            let phase = values
+                .map(|value| read[value])
+                .min()
+                .unwrap_or(Phase::Outputs);
             for operand in step.operation.operands() {
                 read[operand.0] = phase.min(read[operand.0]);
             }
@@ -60,19 +53,19 @@ pub(super) fn arrange(tape: &mut Tape, goals: &[SortedSet<usize>; LAST]) -> Vec<
     phases.reverse();
     let mut arranged = Vec::new();
     let mut of_block = Vec::new();
-    for (number, phase) in PHASES.into_iter().enumerate() {
+    for phase in PHASES {
         for (block, phases) in tape.blocks.iter().zip(&phases) {
             let steps = block.steps.iter().zip(phases);
             let part = Block {
                 needs: block.needs.clone(),
                 steps: steps
-                    .filter(|(_, p)| **p == number)
+                    .filter(|(_, p)| **p == phase)
                     .map(|(s, _)| *s)
                     .collect(),
                 writes: block
                     .writes
                     .iter()
-                    .filter(|write| phase_of_output(write.output) == number)
+                    .filter(|write| of_output[write.output] == phase)
                     .copied()
                     .collect(),
             };

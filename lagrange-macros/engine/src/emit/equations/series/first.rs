@@ -51,7 +51,7 @@ impl Expansion<'_> {
         });
         let (solve, mut solution) = elimination.solve_system(writer);
         code.extend(solve);
-        if mode.system.matrix.len() > mode.system.accelerations {
+        if mode.results.system.matrix.len() > mode.results.system.accelerations {
             // Forces feel the rounding of the elimination, the same in every step.
             let residuals = elimination.residuals(writer, &solution);
             let (again, correction) = elimination.solve(writer, residuals, "c");
@@ -69,7 +69,7 @@ impl Expansion<'_> {
         }
         code.extend(self.first_of(Phase::Balance));
         code.extend(self.first_of(Phase::Accelerations));
-        for (j, place) in mode.accelerations.iter().enumerate() {
+        for (j, place) in mode.results.accelerations.iter().enumerate() {
             if *place != ValueRef::Zero {
                 let value = writer.place(*place);
                 let velocity = mode.inputs.velocity(j);
@@ -81,7 +81,7 @@ impl Expansion<'_> {
             }
         }
         code.extend(self.first_of(Phase::Forces));
-        for (r, place) in mode.forces.iter().enumerate() {
+        for (r, place) in mode.results.forces.iter().enumerate() {
             if let Some(place) = place {
                 let value = writer.place(*place);
                 code.extend(self.store(Row::Value(mode.inputs.force(r)), zero.clone(), value));

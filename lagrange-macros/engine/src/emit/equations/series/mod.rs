@@ -74,7 +74,7 @@ pub fn implementation(
         crossing,
     };
     let number = expansion.writer.number.clone();
-    let elimination = Elimination::new(&expansion.writer, &mode.system);
+    let elimination = Elimination::new(&expansion.writer, &mode.results.system);
     let first = expansion.first(&elimination);
     let mut next = TokenStream::new();
     let mut looped = 1;

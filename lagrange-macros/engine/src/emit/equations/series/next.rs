@@ -85,7 +85,7 @@ impl Expansion<'_> {
                 continue;
             }
             let (dq, dv) = (self.coefficient_of(q), self.coefficient_of(v));
-            let (before, now) = match self.d_of_place(mode.accelerations[j]) {
+            let (before, now) = match self.d_of_place(mode.results.accelerations[j]) {
                 Some(_) => {
                     let (before, now) = (self.before(v), self.now(v));
                     (quote!(#before), quote!(#now))
@@ -110,12 +110,13 @@ impl Expansion<'_> {
         }
         // The linear system.
         let mut right: Vec<Option<TokenStream>> = mode
+            .results
             .system
             .right
             .iter()
             .map(|place| self.d_of_place(*place))
             .collect();
-        if let Some(balance) = &mode.system.balance {
+        if let Some(balance) = &mode.results.system.balance {
             // What is missing for a balance without coefficient k of the unknowns is what that must give.
             for unknown in self.added_unknowns() {
                 let name = self.coefficient_of(unknown);
@@ -128,7 +129,7 @@ impl Expansion<'_> {
         }
         for (i, j, _) in plan.system_products(mode) {
             let w = self.writer.value(mode.inputs.unknown(j));
-            let Some(d) = self.d_of_place(mode.system.matrix[i][j]) else {
+            let Some(d) = self.d_of_place(mode.results.system.matrix[i][j]) else {
                 continue;
             };
             let earlier = system_product(i, j);
@@ -147,7 +148,7 @@ impl Expansion<'_> {
         }
         body.extend(self.balance_with_unknowns());
         body.extend(self.next_of(Phase::Accelerations));
-        for (j, place) in mode.accelerations.iter().enumerate() {
+        for (j, place) in mode.results.accelerations.iter().enumerate() {
             if let Some(d) = self.d_of_place(*place) {
                 let velocity = mode.inputs.velocity(j);
                 let (before, now) = (self.before(velocity), self.now(velocity));
@@ -157,7 +158,7 @@ impl Expansion<'_> {
             }
         }
         body.extend(self.next_of(Phase::Forces));
-        for (r, place) in mode.forces.iter().enumerate() {
+        for (r, place) in mode.results.forces.iter().enumerate() {
             if let Some(d) = place.and_then(|place| self.d_of_place(place)) {
                 body.extend(self.store(Row::Value(mode.inputs.force(r)), quote!(#p), d));
             }
