@@ -231,7 +231,7 @@ fn the_book_lists_every_error() {
         let core = Path::new(env!("CARGO_MANIFEST_DIR")).join("../lagrange-core/src");
         fs::read_to_string(core.join(path)).expect("text")
     };
-    let source = read("error.rs");
+    let source = read("error/mod.rs");
     let variants = source.split("pub enum Error {").nth(1).expect("the errors");
     let variants = variants.split("\n}").next().expect("their end").lines();
     let variants = variants.filter_map(|line| line.strip_prefix("    "));
