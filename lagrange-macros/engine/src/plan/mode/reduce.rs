@@ -93,6 +93,17 @@ fn along(
     combined
 }
 
+/// The forces of a row in these balances; none where something of it can be left out.
+fn column<'a>(
+    pool: &mut Pool,
+    balances: impl Iterator<Item = (usize, &'a Balance)>,
+    row: usize,
+) -> Vec<(usize, Option<ExprId>)> {
+    balances
+        .filter_map(|(i, balance)| Some((i, balance.forces.get(&row)?.whole(pool))))
+        .collect()
+}
+
 /// Eliminates the constant rows among `acting`. None where one follows from the others, or where elimination combines
 /// what a row that stays is made of: the solver of the core then finds out what is determined.
 pub(super) fn reduce(
@@ -103,12 +114,10 @@ pub(super) fn reduce(
     varying: &[Symbol],
 ) -> Option<Reduced> {
     let n = equations.system.coordinates.len();
-    let mut list: Vec<Option<Balance>> = balances.list.iter().cloned().map(Some).collect();
     let one = equations.system.pool.integer(1);
-    let mut accelerations: Vec<SortedMap<usize, ExprId>> =
-        (0..n).map(|j| SortedMap::from([(j, one)])).collect();
+    let mut left: Vec<Option<Balance>> = balances.list.iter().cloned().map(Some).collect();
     let mut reduced = Reduced {
-        accelerations: Vec::new(),
+        accelerations: (0..n).map(|j| SortedMap::from([(j, one)])).collect(),
         free: Vec::new(),
         balances: Vec::new(),
         kept: Vec::new(),
@@ -120,41 +129,55 @@ pub(super) fn reduce(
     for &row in acting {
         let a = jacobian(equations, row, known);
         let bias = whole(equations, equations.structure.rows[row].bias, known);
-        let cyclic = equations.structure.cyclic.clone();
         let pool = &mut equations.system.pool;
-        let fixed = |pool: &Pool, e: ExprId| is_fixed(pool, varying, e);
-        let column: Vec<(usize, Option<ExprId>)> = (0..n)
-            .filter_map(|i| Some((i, list[i].as_ref()?.forces.get(&row)?.whole(pool))))
-            .collect();
+        let present = left.iter().enumerate();
+        let present = present.filter_map(|(i, balance)| Some((i, balance.as_ref()?)));
+        let own = column(pool, present, row);
+        let fixed = |e: ExprId| is_fixed(pool, varying, e);
         let constant = pool.is_zero(bias)
-            && a.iter().all(|&(_, a)| fixed(pool, a))
-            && column
-                .iter()
-                .all(|&(_, c)| c.is_some_and(|c| fixed(pool, c)));
+            && a.iter().all(|&(_, a)| fixed(a))
+            && own.iter().all(|&(_, c)| c.is_some_and(fixed));
         if !constant {
             staying.push((row, a, bias));
             continue;
         }
-        let declared: Vec<(usize, Option<ExprId>)> = (0..n)
-            .filter_map(|i| Some((i, balances.list[i].forces.get(&row)?.whole(pool))))
-            .collect();
-        reduced.symmetric &= declared
-            .iter()
-            .map(|&(i, c)| (i, c))
-            .eq(a.iter().map(|&(j, a)| (j, Some(a))));
-        // The acceleration that follows.
-        let along = along(pool, &a, &accelerations);
+        let declared = column(pool, balances.list.iter().enumerate(), row);
+        let along = a.iter().map(|&(j, a)| (j, Some(a)));
+        reduced.symmetric &= declared.into_iter().eq(along);
+        let pivot = reduced.substitute(pool, &a, &equations.structure.cyclic)?;
+        let at = reduced.solve(pool, row, own, pivot, &mut left)?;
+        reduced.symmetric &= at == pivot;
+    }
+    for (row, a, bias) in staying {
+        reduced.keep(&mut equations.system.pool, row, &a, bias)?;
+    }
+    let accelerations = &reduced.accelerations;
+    let stays = |j: &usize| accelerations.iter().any(|z| z.contains_key(j));
+    reduced.free = (0..n).filter(stays).collect();
+    reduced.balances = left.into_iter().flatten().collect();
+    (reduced.balances.len() == reduced.free.len()).then_some(reduced)
+}
+
+impl Reduced {
+    /// Puts in what a constant row a v̇ = 0 says of one acceleration; returns its coordinate.
+    fn substitute(
+        &mut self,
+        pool: &mut Pool,
+        a: &[(usize, ExprId)],
+        cyclic: &[bool],
+    ) -> Option<usize> {
+        let along = along(pool, a, &self.accelerations);
         let (&pivot, &divisor) = along
             .iter()
             .min_by_key(|&(&j, &a)| (rank(pool, a), !cyclic[j], j))?;
-        reduced.divide(pool, divisor, along.values().copied());
+        self.divide(pool, divisor, along.values().copied());
         let mut follows = SortedMap::new();
         for (&k, &a) in along.iter().filter(|&(&k, _)| k != pivot) {
             let ratio = pool.div(a, divisor)?;
             let ratio = pool.neg(ratio);
             follows.insert(k, pool.simplify(ratio));
         }
-        for combination in &mut accelerations {
+        for combination in &mut self.accelerations {
             let Some(factor) = combination.remove(&pivot) else {
                 continue;
             };
@@ -172,7 +195,19 @@ pub(super) fn reduce(
                 }
             }
         }
-        // The balance that gives its force.
+        Some(pivot)
+    }
+
+    /// Takes out the balance that gives the force of an eliminated row, if possible that of the `pivot`, and the force out of the balances
+    /// that are left; returns whose balance it is. `column` is what the balances have of the force.
+    fn solve(
+        &mut self,
+        pool: &mut Pool,
+        row: usize,
+        column: Vec<(usize, Option<ExprId>)>,
+        pivot: usize,
+        left: &mut [Option<Balance>],
+    ) -> Option<usize> {
         let mut column: SortedMap<usize, ExprId> = column
             .into_iter()
             .filter_map(|(i, c)| Some((i, pool.simplify(c?))))
@@ -182,52 +217,50 @@ pub(super) fn reduce(
             true => pivot,
             false => *column.iter().min_by_key(|&(&i, &c)| (rank(pool, c), i))?.0,
         };
-        reduced.symmetric &= at == pivot;
         let coefficient = column[&at];
-        reduced.divide(pool, coefficient, column.values().copied());
-        let balance = list[at].take()?;
+        self.divide(pool, coefficient, column.values().copied());
+        let balance = left[at].take()?;
         for (&i, &c) in column.iter().filter(|&(&i, _)| i != at) {
             let ratio = pool.div(c, coefficient)?;
             let ratio = pool.simplify(ratio);
-            let Some(other) = list[i].as_mut() else {
+            let Some(other) = left[i].as_mut() else {
                 continue;
             };
             other.subtract(pool, ratio, &balance);
             other.forces.remove(&row);
         }
-        reduced.solved.push(Solved {
+        self.solved.push(Solved {
             row,
             balance,
             coefficient,
         });
+        Some(at)
     }
-    let pool = &mut equations.system.pool;
-    for (row, a, bias) in staying {
+
+    /// Notes a row that stays in the system.
+    fn keep(
+        &mut self,
+        pool: &mut Pool,
+        row: usize,
+        a: &[(usize, ExprId)],
+        bias: ExprId,
+    ) -> Option<()> {
         // Where elimination adds terms up they can cancel, which only the numbers tell.
-        let combines = a
-            .iter()
-            .any(|(j, _)| match accelerations[*j].iter().next() {
-                Some((_, &z)) => accelerations[*j].len() > 1 || !pool.is_one(z),
-                None => false,
-            });
-        if combines {
+        let combines = |(j, _): &(usize, ExprId)| match self.accelerations[*j].iter().next() {
+            Some((_, &z)) => self.accelerations[*j].len() > 1 || !pool.is_one(z),
+            None => false,
+        };
+        if a.iter().any(combines) {
             return None;
         }
-        let along = along(pool, &a, &accelerations);
+        let along = along(pool, a, &self.accelerations);
         if along.is_empty() {
             return None;
         }
-        reduced.kept.push((row, along, bias));
+        self.kept.push((row, along, bias));
+        Some(())
     }
-    reduced.free = (0..n)
-        .filter(|j| accelerations.iter().any(|z| z.contains_key(j)))
-        .collect();
-    reduced.balances = list.into_iter().flatten().collect();
-    reduced.accelerations = accelerations;
-    (reduced.balances.len() == reduced.free.len()).then_some(reduced)
-}
 
-impl Reduced {
     /// Notes a divisor; exact numbers need no test.
     fn divide(&mut self, pool: &Pool, pivot: ExprId, row: impl Iterator<Item = ExprId>) {
         if pool.as_number(pivot).is_none() {
