@@ -14,35 +14,64 @@ use quote::quote;
 impl Expansion<'_> {
     /// Order 0 of everything.
     pub(super) fn first(&self, elimination: &Elimination) -> TokenStream {
-        let (writer, mode, plan) = (&self.writer, self.mode, self.plan);
+        let declarations = self.writer.declarations();
+        let auxiliary = self.auxiliary_declarations();
+        let inputs = self.first_of_inputs();
+        let assembly = self.first_of(Phase::Assembly);
+        let unknowns = self.first_of_unknowns(elimination);
+        let balance = self.first_of(Phase::Balance);
+        let accelerations = self.first_of(Phase::Accelerations);
+        let velocities = self.first_of_velocities();
+        let forces = self.first_of(Phase::Forces);
+        let results = self.first_of_results();
+        let outputs = self.first_of(Phase::Outputs);
+        let sums = self.plan.sums.keys().map(|&output| {
+            let sum = names::sum(output);
+            self.store(Row::Sum(output), quote!(0), quote!(#sum))
+        });
+        quote! {
+            #declarations
+            #auxiliary
+            #inputs
+            #assembly
+            #unknowns
+            #balance
+            #accelerations
+            #velocities
+            #forces
+            #results
+            #outputs
+            #(#sums)*
+        }
+    }
+
+    /// Positions, velocities, time, and the numbers that do not change.
+    fn first_of_inputs(&self) -> TokenStream {
+        let inputs = self.mode.inputs;
         let number = &self.writer.number;
-        let zero = quote!(0);
-        let mut code = writer.declarations();
-        code.extend(self.auxiliary_declarations());
-        let n = mode.inputs.coordinates;
-        let (q, v) = (local("q"), local("v"));
-        for j in 0..n {
+        let (t, q, v) = (local("t"), local("q"), local("v"));
+        let states = (0..inputs.coordinates).map(|j| {
             let at = index(j);
-            code.extend(self.store(
-                Row::Value(mode.inputs.position(j)),
-                zero.clone(),
-                quote!(#q[#at]),
-            ));
-            code.extend(self.store(
-                Row::Value(mode.inputs.velocity(j)),
-                zero.clone(),
-                quote!(#v[#at]),
-            ));
-        }
-        let (time, one) = (local("t"), quote!(#number::of(1.0)));
-        code.extend(self.store(Row::Value(Value(0)), zero.clone(), quote!(#time)));
-        code.extend(self.store(Row::Value(Value(0)), quote!(1), one));
-        for constant in plan.fixed() {
-            let value = writer.coefficient(Coefficient::Constant(constant));
-            code.extend(self.store(Row::Fixed(constant), zero.clone(), value));
-        }
-        code.extend(self.first_of(Phase::Assembly));
-        code.extend(elimination.code.clone());
+            let position = Row::Value(inputs.position(j));
+            let position = self.store(position, quote!(0), quote!(#q[#at]));
+            let velocity = Row::Value(inputs.velocity(j));
+            let velocity = self.store(velocity, quote!(0), quote!(#v[#at]));
+            quote!(#position #velocity)
+        });
+        let time = Row::Value(Value(0));
+        let first = self.store(time, quote!(0), quote!(#t));
+        let second = self.store(time, quote!(1), quote!(#number::of(1.0)));
+        let fixed = self.plan.fixed().into_iter().map(|constant| {
+            let value = self.writer.coefficient(Coefficient::Constant(constant));
+            self.store(Row::Fixed(constant), quote!(0), value)
+        });
+        quote!(#(#states)* #first #second #(#fixed)*)
+    }
+
+    /// Eliminates, and solves the linear system.
+    fn first_of_unknowns(&self, elimination: &Elimination) -> TokenStream {
+        let (writer, mode) = (&self.writer, self.mode);
+        let mut code = elimination.code.clone();
         let safe = local("safe");
         code.extend(quote! {
             if !#safe {
@@ -63,41 +92,47 @@ impl Expansion<'_> {
         }
         for (i, x) in solution.iter().enumerate() {
             let value = mode.inputs.unknown(i);
-            let name = self.writer.value(value);
+            let name = writer.value(value);
             code.extend(quote!(let #name = #x;));
             code.extend(self.keep_first(value));
         }
-        code.extend(self.first_of(Phase::Balance));
-        code.extend(self.first_of(Phase::Accelerations));
-        for (j, place) in mode.results.accelerations.iter().enumerate() {
-            if *place != ValueRef::Zero {
-                let value = writer.place(*place);
-                let velocity = mode.inputs.velocity(j);
-                code.extend(self.store(Row::Value(velocity), quote!(1), value.clone()));
-                if self.d_of_place(*place).is_some() {
-                    let (before, now, at) = (self.before(velocity), self.now(velocity), index(j));
-                    code.extend(quote!(let (mut #before, mut #now) = (#v[#at], #value);));
-                }
-            }
-        }
-        code.extend(self.first_of(Phase::Forces));
+        code
+    }
+
+    /// The first two coefficients of the velocities.
+    fn first_of_velocities(&self) -> TokenStream {
+        let v = local("v");
+        let places = self.mode.results.accelerations.iter().enumerate();
+        let moving = places.filter(|(_, place)| **place != ValueRef::Zero);
+        let lines = moving.map(|(j, place)| {
+            let value = self.writer.place(*place);
+            let velocity = self.mode.inputs.velocity(j);
+            let store = self.store(Row::Value(velocity), quote!(1), value.clone());
+            let next = self.d_of_place(*place).map(|_| {
+                let (before, now, at) = (self.before(velocity), self.now(velocity), index(j));
+                quote!(let (mut #before, mut #now) = (#v[#at], #value);)
+            });
+            quote!(#store #next)
+        });
+        quote!(#(#lines)*)
+    }
+
+    /// Forces, and what is read of the results.
+    fn first_of_results(&self) -> TokenStream {
+        let (writer, mode) = (&self.writer, self.mode);
+        let mut code = TokenStream::new();
         for (r, place) in mode.results.forces.iter().enumerate() {
             if let Some(place) = place {
                 let value = writer.place(*place);
-                code.extend(self.store(Row::Value(mode.inputs.force(r)), zero.clone(), value));
+                code.extend(self.store(Row::Value(mode.inputs.force(r)), quote!(0), value));
             }
         }
         for (value, place) in value::results(mode) {
-            let (name, result) = (self.writer.value(value), writer.place(place));
+            let (name, result) = (writer.value(value), writer.place(place));
             code.extend(quote!(let #name = #result;));
             if value.0 < mode.inputs.force(0).0 {
                 code.extend(self.keep_first(value));
             }
-        }
-        code.extend(self.first_of(Phase::Outputs));
-        for &output in plan.sums.keys() {
-            let sum = names::sum(output);
-            code.extend(self.store(Row::Sum(output), zero.clone(), quote!(#sum)));
         }
         code
     }

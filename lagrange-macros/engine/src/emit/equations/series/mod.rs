@@ -13,6 +13,7 @@
 mod first;
 mod next;
 mod rules;
+mod sums;
 
 use super::super::names::{self, index, local};
 use super::solve::Elimination;
@@ -51,40 +52,17 @@ pub fn implementation(
     mode: &ModeProgram,
     plan: &Plan,
 ) -> TokenStream {
-    let system = &program.equations.system;
-    let blocks = mode
-        .tape
-        .blocks
-        .iter()
-        .filter(|block| !block.needs.is_always());
-    let steps = blocks.flat_map(|block| &block.steps);
-    let declared = steps
-        .flat_map(|step| (0..step.operation.values()).map(|offset| Value(step.value.0 + offset)));
-    let writer = Writer::new(system, mode, declared.collect());
-    let mut crossing = names::crossing(&mode.tape);
-    // Their series are kept behind all blocks.
-    crossing.extend(
-        plan.optional_factors()
-            .filter(|value| writer.declared.contains(value)),
-    );
-    let expansion = Expansion {
-        writer,
-        plan,
-        mode,
-        crossing,
-    };
+    let expansion = Expansion::new(program, mode, plan);
     let number = expansion.writer.number.clone();
     let elimination = Elimination::new(&expansion.writer, &mode.results.system);
     let first = expansion.first(&elimination);
-    let mut next = TokenStream::new();
-    let mut looped = 1;
-    if system.emit == Emit::Unrolled && plan.convolutions() <= MOST_UNROLLED {
-        for k in 1..=UNROLLED {
-            next.extend(expansion.order(k, &elimination));
-        }
-        looped += UNROLLED;
-    }
-    next.extend(expansion.orders_from(looped, &elimination));
+    let emit = program.equations.system.emit;
+    let unrolled = match emit == Emit::Unrolled && plan.convolutions() <= MOST_UNROLLED {
+        true => UNROLLED,
+        false => 0,
+    };
+    let single = (1..=unrolled).map(|k| expansion.order(k, &elimination));
+    let looped = expansion.orders_from(1 + unrolled, &elimination);
     let (c, held, order, rows) = (local("c"), local("held"), local("order"), local("rows"));
     let (t, q, v, registers) = (local("t"), local("q"), local("v"), local("registers"));
     let (products, newest) = (local("products"), local("newest"));
@@ -114,14 +92,35 @@ pub fn implementation(
                 #needs
                 #first
                 let mut #newest = [Factors::<#number>::none(); #groups];
-                #next
+                #(#single)*
+                #looped
                 ::core::result::Result::Ok(())
             }
         }
     }
 }
 
-impl Expansion<'_> {
+impl<'a> Expansion<'a> {
+    fn new(program: &'a Program, mode: &'a ModeProgram, plan: &'a Plan) -> Expansion<'a> {
+        let blocks = mode.tape.blocks.iter();
+        let optional = blocks.filter(|block| !block.needs.is_always());
+        let steps = optional.flat_map(|block| &block.steps);
+        let declared = steps.flat_map(|step| {
+            (0..step.operation.values()).map(|offset| Value(step.value.0 + offset))
+        });
+        let writer = Writer::new(&program.equations.system, mode, declared.collect());
+        let mut crossing = names::crossing(&mode.tape);
+        // Their series are kept behind all blocks.
+        let factors = plan.optional_factors();
+        crossing.extend(factors.filter(|value| writer.declared.contains(value)));
+        Expansion {
+            writer,
+            plan,
+            mode,
+            crossing,
+        }
+    }
+
     /// Steps of blocks under needs whose series are expanded.
     fn optional_steps(&self) -> impl Iterator<Item = &Step> {
         let blocks = self.mode.tape.blocks.iter();

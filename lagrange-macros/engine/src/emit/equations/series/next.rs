@@ -1,23 +1,17 @@
 //! Coefficient k of a series: sums over the earlier coefficients, what is linear, the linear system, what follows from it.
 
 use super::rules::needs_auxiliary;
+use super::sums::system_product;
 use super::{Expansion, sum_coefficient};
 use crate::emit::equations::solve::Elimination;
 use crate::emit::equations::value;
 use crate::emit::names::{self, index, local};
 use crate::plan::mode::Phase;
-use crate::plan::mode::products::{Factor, GROUP, Group, Product, Row};
+use crate::plan::mode::products::Row;
 use crate::plan::{Block, Mode, Operation, Step, Value};
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 use std::collections::BTreeSet;
-
-/// So many groups of products are summed together at most: a processor has sixteen registers for their sums and what they add.
-const TOGETHER: usize = 8;
-
-fn system_product(i: usize, j: usize) -> Ident {
-    local(&format!("earlier_k{i}_{j}"))
-}
 
 impl Expansion<'_> {
     /// The loop over the orders from `first` on.
@@ -48,40 +42,73 @@ impl Expansion<'_> {
 
     /// Coefficient k of everything.
     fn next(&self, elimination: &Elimination) -> TokenStream {
-        let (mode, plan) = (self.mode, self.plan);
         let number = &self.writer.number;
-        let n = mode.inputs.coordinates;
         let (k, p, weight, share) = (local("k"), local("p"), local("weight"), local("share"));
-        let mut body = TokenStream::new();
-        // Sums over earlier coefficients.
-        let always = plan.always(mode).into_iter();
-        let mut products: Vec<_> = always.map(|one| self.named(one)).collect();
-        for (i, j, product) in plan.system_products(mode) {
-            products.push((system_product(i, j), product));
+        let products = self.always_summed();
+        let sums = self.sums(0, &products, true);
+        let optional_sums = self.optional_sums();
+        let optional_declarations = self.optional_declarations();
+        let inputs = self.next_of_inputs();
+        let assembly = self.next_of(Phase::Assembly);
+        let assembled = self.next_of_sums(|output| self.is_in(output, Phase::Assembly));
+        let unknowns = self.next_of_unknowns(elimination);
+        let accelerations = self.next_of(Phase::Accelerations);
+        let velocities = self.next_of_velocities();
+        let forces = self.next_of(Phase::Forces);
+        let results = self.next_of_results();
+        let outputs = self.next_of(Phase::Outputs);
+        let others = self.next_of_sums(|output| !self.is_in(output, Phase::Assembly));
+        let factors = self.keep_factors(0, &products);
+        let optional_factors = self.keep_optional_factors();
+        quote! {
+            let #p = #k & 31;
+            let #weight = #number::of(#k as f64);
+            let #share = #number::of(INVERSES[#p]);
+            #sums
+            #optional_sums
+            #optional_declarations
+            #inputs
+            #assembly
+            #assembled
+            #unknowns
+            #accelerations
+            #velocities
+            #forces
+            #results
+            #outputs
+            #others
+            #factors
+            #optional_factors
         }
-        body.extend(self.sums(0, &products, true));
-        body.extend(self.optional_sums());
-        let crossing = self.crossing.iter().filter(|value| plan.varying[value.0]);
-        for value in crossing {
-            let name = self.coefficient_of(*value);
-            body.extend(quote!(let mut #name = #number::of(0.0);));
-        }
-        for step in self
+    }
+
+    /// What leaves a block under a need.
+    fn optional_declarations(&self) -> TokenStream {
+        let number = &self.writer.number;
+        let crossing = self.crossing.iter();
+        let crossing = crossing.filter(|value| self.plan.varying[value.0]);
+        let crossing = crossing.map(|value| self.coefficient_of(*value));
+        let auxiliary = self
             .optional_steps()
             .filter(|step| needs_auxiliary(step.operation))
-        {
-            let name = self.auxiliary_coefficient(step.value);
-            body.extend(quote!(let mut #name = #number::of(0.0);));
-        }
-        // Coefficient k of the inputs.
+            .map(|step| self.auxiliary_coefficient(step.value));
+        let names = crossing.chain(auxiliary);
+        quote!(#(let mut #names = #number::of(0.0);)*)
+    }
+
+    /// Coefficient k of time, positions and velocities.
+    fn next_of_inputs(&self) -> TokenStream {
+        let (mode, number) = (self.mode, &self.writer.number);
+        let (k, p, share) = (local("k"), local("p"), local("share"));
         let read = names::read(&mode.tape);
+        let mut body = TokenStream::new();
         if read.contains(&Value(0)) {
             let name = self.coefficient_of(Value(0));
             body.extend(quote!(let #name = #number::of(if #k == 1 { 1.0 } else { 0.0 });));
         }
-        for j in 0..n {
+        for j in 0..mode.inputs.coordinates {
             let (q, v) = (mode.inputs.position(j), mode.inputs.velocity(j));
-            if !plan.varying[q.0] {
+            if !self.plan.varying[q.0] {
                 continue;
             }
             let (dq, dv) = (self.coefficient_of(q), self.coefficient_of(v));
@@ -101,22 +128,31 @@ impl Expansion<'_> {
                 body.extend(quote!(let #dv = #now;));
             }
         }
-        body.extend(self.next_of(Phase::Assembly));
-        for (&output, &varies) in &plan.sums {
-            if varies && self.is_in(output, Phase::Assembly) {
+        body
+    }
+
+    /// Keeps coefficient k of those of the outputs that several writes enter.
+    fn next_of_sums(&self, which: impl Fn(usize) -> bool) -> TokenStream {
+        let p = local("p");
+        let sums = self.plan.sums.iter();
+        let lines = sums
+            .filter(|&(&output, &varies)| varies && which(output))
+            .map(|(&output, _)| {
                 let d = sum_coefficient(output);
-                body.extend(self.store(Row::Sum(output), quote!(#p), quote!(#d)));
-            }
-        }
-        // The linear system.
-        let mut right: Vec<Option<TokenStream>> = mode
-            .results
-            .system
-            .right
-            .iter()
-            .map(|place| self.d_of_place(*place))
-            .collect();
-        if let Some(balance) = &mode.results.system.balance {
+                self.store(Row::Sum(output), quote!(#p), quote!(#d))
+            });
+        quote!(#(#lines)*)
+    }
+
+    /// Solves the linear system for coefficient k of the unknowns.
+    fn next_of_unknowns(&self, elimination: &Elimination) -> TokenStream {
+        let (mode, number) = (self.mode, &self.writer.number);
+        let system = &mode.results.system;
+        let mut body = TokenStream::new();
+        let places = system.right.iter();
+        let mut right: Vec<Option<TokenStream>> =
+            places.map(|place| self.d_of_place(*place)).collect();
+        if let Some(balance) = &system.balance {
             // What is missing for a balance without coefficient k of the unknowns is what that must give.
             for unknown in self.added_unknowns() {
                 let name = self.coefficient_of(unknown);
@@ -127,9 +163,9 @@ impl Expansion<'_> {
                 *right = self.d_of_place(*place).map(|d| quote!((-#d)));
             }
         }
-        for (i, j, _) in plan.system_products(mode) {
+        for (i, j, _) in self.plan.system_products(mode) {
             let w = self.writer.value(mode.inputs.unknown(j));
-            let Some(d) = self.d_of_place(mode.results.system.matrix[i][j]) else {
+            let Some(d) = self.d_of_place(system.matrix[i][j]) else {
                 continue;
             };
             let earlier = system_product(i, j);
@@ -147,17 +183,30 @@ impl Expansion<'_> {
             body.extend(self.keep_next(value));
         }
         body.extend(self.balance_with_unknowns());
-        body.extend(self.next_of(Phase::Accelerations));
-        for (j, place) in mode.results.accelerations.iter().enumerate() {
-            if let Some(d) = self.d_of_place(*place) {
-                let velocity = mode.inputs.velocity(j);
-                let (before, now) = (self.before(velocity), self.now(velocity));
-                let next = quote!(#d * #number::of(INVERSES[(#k + 1) & 31]));
-                body.extend(quote!((#before, #now) = (#now, #next);));
-                body.extend(self.store(Row::Value(velocity), quote!((#k + 1) & 31), quote!(#now)));
-            }
-        }
-        body.extend(self.next_of(Phase::Forces));
+        body
+    }
+
+    /// Coefficient k + 1 of the velocities, from that of the accelerations.
+    fn next_of_velocities(&self) -> TokenStream {
+        let number = &self.writer.number;
+        let k = local("k");
+        let places = self.mode.results.accelerations.iter().enumerate();
+        let lines = places.filter_map(|(j, place)| {
+            let d = self.d_of_place(*place)?;
+            let velocity = self.mode.inputs.velocity(j);
+            let (before, now) = (self.before(velocity), self.now(velocity));
+            let next = quote!(#d * #number::of(INVERSES[(#k + 1) & 31]));
+            let store = self.store(Row::Value(velocity), quote!((#k + 1) & 31), quote!(#now));
+            Some(quote!((#before, #now) = (#now, #next); #store))
+        });
+        quote!(#(#lines)*)
+    }
+
+    /// Coefficient k of the forces, and of what is read of the results.
+    fn next_of_results(&self) -> TokenStream {
+        let mode = self.mode;
+        let p = local("p");
+        let mut body = TokenStream::new();
         for (r, place) in mode.results.forces.iter().enumerate() {
             if let Some(d) = place.and_then(|place| self.d_of_place(place)) {
                 body.extend(self.store(Row::Value(mode.inputs.force(r)), quote!(#p), d));
@@ -172,21 +221,7 @@ impl Expansion<'_> {
                 }
             }
         }
-        body.extend(self.next_of(Phase::Outputs));
-        for (&output, &varies) in &plan.sums {
-            if varies && !self.is_in(output, Phase::Assembly) {
-                let d = sum_coefficient(output);
-                body.extend(self.store(Row::Sum(output), quote!(#p), quote!(#d)));
-            }
-        }
-        body.extend(self.keep_factors(0, &products));
-        body.extend(self.keep_optional_factors());
-        quote! {
-            let #p = #k & 31;
-            let #weight = #number::of(#k as f64);
-            let #share = #number::of(INVERSES[#p]);
-            #body
-        }
+        body
     }
 
     /// Coefficient k of what the balance makes of the unknowns, once these are known.
@@ -243,113 +278,6 @@ impl Expansion<'_> {
     fn is_in(&self, output: usize, phase: Phase) -> bool {
         let mut writes = self.mode.blocks(phase).flat_map(|block| &block.writes);
         writes.any(|write| write.output == output)
-    }
-
-    fn named(&self, (value, at, product): (Value, usize, Product)) -> (Ident, Product) {
-        (self.product(value, at), product)
-    }
-
-    /// Σ xⱼ yₖ₋ⱼ for 0 < j < k of all products, which are in groups from `first` on, into new locals or into those that there are.
-    fn sums(&self, first: usize, products: &[(Ident, Product)], new: bool) -> TokenStream {
-        let (k, registers) = (local("k"), local("registers"));
-        let (memory, newest) = (local("products"), local("newest"));
-        let count = products.len().div_ceil(GROUP);
-        let together = count.div_ceil(count.div_ceil(TOGETHER).max(1)).max(1);
-        let loops = products.chunks(GROUP * together).enumerate();
-        let loops = loops.map(|(at, products)| {
-            let groups = products.chunks(GROUP).map(|group| {
-                let names = group.iter().map(|(name, _)| name);
-                let rest = (group.len()..GROUP).map(|_| quote!(_));
-                quote!([#(#names,)* #(#rest),*])
-            });
-            let from = first + at * together;
-            let factors = (from..from + products.len().div_ceil(GROUP)).map(|at| {
-                let at = index(at);
-                quote!((&#memory[#at], #newest[#at]))
-            });
-            let bind = new.then(|| quote!(let));
-            quote! {
-                #bind [#(#groups),*] = Products::sums(#registers, #k, [#(#factors),*]);
-            }
-        });
-        quote!(#(#loops)*)
-    }
-
-    /// The groups of blocks under needs: runs of those that the same needs ask for, with the number of the first.
-    fn optional_groups(&self) -> impl Iterator<Item = (usize, &[Group])> {
-        let optional = &self.plan.optional;
-        let mut next = self.plan.groups - optional.len();
-        let runs = optional.chunk_by(|a, b| a.needs == b.needs);
-        runs.map(move |run| {
-            let first = next;
-            next += run.len();
-            (first, run)
-        })
-    }
-
-    /// The products of such groups.
-    fn named_products(&self, run: &[Group]) -> Vec<(Ident, Product)> {
-        let products = run.iter().flat_map(|group| &group.products);
-        products.map(|&one| self.named(one)).collect()
-    }
-
-    /// Sums of the products of blocks under needs; zero where nothing asks for a group.
-    fn optional_sums(&self) -> TokenStream {
-        let number = &self.writer.number;
-        let runs = self.optional_groups().map(|(first, run)| {
-            let condition = names::condition(&run[0].needs);
-            let products = self.named_products(run);
-            let names = products.iter().map(|(name, _)| name);
-            let sums = self.sums(first, &products, false);
-            quote!(#(let mut #names = #number::of(0.0);)* if #condition { #sums })
-        });
-        quote!(#(#runs)*)
-    }
-
-    /// Keeps coefficient k of their factors.
-    fn keep_optional_factors(&self) -> TokenStream {
-        let runs = self.optional_groups().map(|(first, run)| {
-            let condition = names::condition(&run[0].needs);
-            let factors = self.keep_factors(first, &self.named_products(run));
-            quote!(if #condition { #factors })
-        });
-        quote!(#(#runs)*)
-    }
-
-    /// Keeps coefficient k of the factors of products.
-    fn keep_factors(&self, first: usize, products: &[(Ident, Product)]) -> TokenStream {
-        let registers = local("registers");
-        let (memory, newest, p) = (local("products"), local("newest"), local("p"));
-        let groups = products.chunks(GROUP).enumerate().map(|(at, group)| {
-            let at = index(first + at);
-            // Nobody reads the sums of what a group lacks: it repeats its last product.
-            let filled = |place: usize| group[place.min(group.len() - 1)].1;
-            let x = (0..GROUP).map(|place| self.factor(filled(place).0));
-            let y = (0..GROUP).map(|place| self.factor(filled(place).1));
-            quote!(#newest[#at] = #memory[#at].keep(#registers, #p, [#(#x),*], [#(#y),*]);)
-        });
-        quote!(#(#groups)*)
-    }
-
-    /// Coefficient k of a factor.
-    fn factor(&self, factor: Factor) -> TokenStream {
-        let number = &self.writer.number;
-        let of = |value| self.d(value).unwrap_or(quote!(#number::of(0.0)));
-        match factor {
-            Factor::Value(value) => of(value),
-            Factor::Weighted(value) => {
-                let (d, weight) = (of(value), local("weight"));
-                quote!(#d * #weight)
-            }
-            Factor::Auxiliary(value) => {
-                let name = self.auxiliary_coefficient(value);
-                quote!(#name)
-            }
-            Factor::Sum(output) => {
-                let name = sum_coefficient(output);
-                quote!(#name)
-            }
-        }
     }
 
     /// Coefficient k of the values of a phase.
