@@ -56,136 +56,197 @@ fn order(system: &LinearSystem) -> Vec<usize> {
     order
 }
 
-impl<'a> Elimination<'a> {
-    pub fn new(writer: &Writer, system: &'a LinearSystem) -> Elimination<'a> {
+/// An elimination on its way.
+struct Work<'a> {
+    writer: &'a Writer<'a>,
+    system: &'a LinearSystem,
+    order: &'a [usize],
+    /// What is left of K.
+    m: Vec<Vec<Element>>,
+    factors: Vec<(usize, usize)>,
+    code: TokenStream,
+    /// Least share that a pivot before has kept of its diagonal element: later ones miss it too.
+    least: Option<Ident>,
+    /// Diagonal elements that pivots are compared with: of rows that stay, once the accelerations are eliminated.
+    before: Vec<TokenStream>,
+    /// What coordinates add to the compliance of each row: those of constant inertia, and those that may lose nearly all of it.
+    compliance: Vec<[Vec<TokenStream>; 2]>,
+}
+
+impl<'a> Work<'a> {
+    fn new(writer: &'a Writer<'a>, system: &'a LinearSystem, order: &'a [usize]) -> Work<'a> {
         let size = system.matrix.len();
-        let order = order(system);
-        let number = &writer.number;
-        let mut m: Vec<Vec<Element>> = system
-            .matrix
-            .iter()
-            .map(|row| {
-                let element = |place: &ValueRef| match place {
-                    ValueRef::Zero => Element::Zero,
-                    place => Element::Whole(*place),
-                };
-                row.iter().map(element).collect()
-            })
-            .collect();
-        let read = |element: &Element| match element {
-            Element::Zero => quote!(#number::of(0.0)),
-            Element::Whole(place) => writer.place(*place),
-            Element::Reduced(name) => quote!(#name),
+        let element = |place: &ValueRef| match place {
+            ValueRef::Zero => Element::Zero,
+            place => Element::Whole(*place),
         };
+        let rows = system.matrix.iter();
         let safe = local("safe");
-        let mut code = quote!(let mut #safe = true;);
-        let mut factors = Vec::new();
-        // Least share that a pivot before has kept of its diagonal element: later ones miss it too.
-        let mut least: Option<Ident> = None;
-        // Diagonal elements that pivots are compared with: of rows that stay, once the accelerations are eliminated.
-        let mut before: Vec<TokenStream> = (0..size).map(|i| read(&m[i][i])).collect();
-        // What coordinates add to the compliance of each row: those of constant inertia, and those that may lose nearly all of it.
-        let mut compliance: Vec<[Vec<TokenStream>; 2]> = vec![Default::default(); size];
-        for (step, &p) in order.iter().enumerate() {
-            let rest = &order[step + 1..];
-            if step == system.accelerations {
-                rest.iter()
-                    .chain([&p])
-                    .for_each(|&i| before[i] = read(&m[i][i]));
-                for [constant, varying] in &compliance {
-                    if !varying.is_empty() && constant.len() + varying.len() > 1 {
-                        code.extend(
-                            quote!(#safe &= #number::is_spread(&[#(#constant),*], &[#(#varying),*]);),
-                        );
-                    }
-                }
-            }
-            let pivot = read(&m[p][p]);
-            let leading = p < system.accelerations;
-            if system.units[p] {
-                continue;
-            }
-            let name = reciprocal(p);
-            if leading
-                && system.symmetric
-                && matches!(m[p][p], Element::Whole(ValueRef::Constant(_)))
-            {
-                // The constants have been tested.
-            } else if leading && system.symmetric {
-                let original = &before[p];
-                let tested = match &least {
-                    None => quote!(#pivot),
-                    Some(least) => quote!((#least * #pivot)),
-                };
-                code.extend(quote!(#safe &= #number::is_positive_share(#tested, #original);));
-                if matches!(m[p][p], Element::Reduced(_)) {
-                    let share = quote!(#pivot / #original);
-                    let name = local(&format!("least{step}"));
-                    code.extend(match &least {
-                        None => quote!(let #name = #share;),
-                        Some(least) => quote!(let #name = #number::lesser(#least, #share);),
-                    });
-                    least = Some(name);
-                }
-            } else {
-                let below = rest.iter().map(|&i| &m[i][p]);
-                let below = below.filter(|e| !matches!(e, Element::Zero)).map(read);
-                let before = &before[p];
-                code.extend(
-                    quote!(#safe &= #number::is_safe_pivot(#pivot, #before, &[#(#below),*]);),
+        let mut work = Work {
+            writer,
+            system,
+            order,
+            m: rows.map(|row| row.iter().map(element).collect()).collect(),
+            factors: Vec::new(),
+            code: quote!(let mut #safe = true;),
+            least: None,
+            before: Vec::new(),
+            compliance: vec![Default::default(); size],
+        };
+        work.before = (0..size).map(|i| work.read(&work.m[i][i])).collect();
+        work
+    }
+
+    fn read(&self, element: &Element) -> TokenStream {
+        let number = &self.writer.number;
+        match element {
+            Element::Zero => quote!(#number::of(0.0)),
+            Element::Whole(place) => self.writer.place(*place),
+            Element::Reduced(name) => quote!(#name),
+        }
+    }
+
+    /// Whether a pivot is that of an acceleration in a symmetric matrix.
+    fn is_inertia(&self, p: usize) -> bool {
+        p < self.system.accelerations && self.system.symmetric
+    }
+
+    fn is_constant(&self, p: usize) -> bool {
+        matches!(self.m[p][p], Element::Whole(ValueRef::Constant(_)))
+    }
+
+    /// The accelerations are eliminated: from this step on pivots are those of the rows that stay.
+    fn begin_rows(&mut self, step: usize) {
+        let number = &self.writer.number;
+        for &i in &self.order[step..] {
+            self.before[i] = self.read(&self.m[i][i]);
+        }
+        let safe = local("safe");
+        for [constant, varying] in &self.compliance {
+            if !varying.is_empty() && constant.len() + varying.len() > 1 {
+                self.code.extend(
+                    quote!(#safe &= #number::is_spread(&[#(#constant),*], &[#(#varying),*]);),
                 );
             }
-            let known = system.reciprocals.get(p).copied().flatten();
-            match (&m[p][p], known) {
-                (Element::Whole(_), Some(place)) => {
-                    let inverse = writer.place(place);
-                    code.extend(quote!(let #name = #inverse;));
-                }
-                _ => code.extend(quote!(let #name = #number::of(1.0) / #pivot;)),
+        }
+    }
+
+    /// Tests the pivot of a step.
+    fn test(&mut self, step: usize) {
+        let number = &self.writer.number;
+        let p = self.order[step];
+        let (pivot, safe) = (self.read(&self.m[p][p]), local("safe"));
+        let before = &self.before[p];
+        if !self.is_inertia(p) {
+            let below = self.order[step + 1..].iter().map(|&i| &self.m[i][p]);
+            let below = below.filter(|e| !matches!(e, Element::Zero));
+            let below = below.map(|element| self.read(element));
+            let test = quote!(#safe &= #number::is_safe_pivot(#pivot, #before, &[#(#below),*]););
+            self.code.extend(test);
+            return;
+        }
+        // The constants have been tested.
+        if self.is_constant(p) {
+            return;
+        }
+        let tested = match &self.least {
+            None => quote!(#pivot),
+            Some(least) => quote!((#least * #pivot)),
+        };
+        self.code
+            .extend(quote!(#safe &= #number::is_positive_share(#tested, #before);));
+        if matches!(self.m[p][p], Element::Reduced(_)) {
+            let share = quote!(#pivot / #before);
+            let name = local(&format!("least{step}"));
+            self.code.extend(match &self.least {
+                None => quote!(let #name = #share;),
+                Some(least) => quote!(let #name = #number::lesser(#least, #share);),
+            });
+            self.least = Some(name);
+        }
+    }
+
+    /// 1/Kₚₚ
+    fn invert(&mut self, p: usize) {
+        let number = &self.writer.number;
+        let name = reciprocal(p);
+        let known = self.system.reciprocals.get(p).copied().flatten();
+        let inverse = match (&self.m[p][p], known) {
+            (Element::Whole(_), Some(place)) => self.writer.place(place),
+            (element, _) => {
+                let pivot = self.read(element);
+                quote!(#number::of(1.0) / #pivot)
             }
-            for &i in rest {
-                if matches!(m[i][p], Element::Zero) {
-                    continue;
-                }
-                let (l, element) = (factor(i, p), read(&m[i][p]));
-                code.extend(quote!(let #l = #element * #name;));
-                if leading && system.symmetric && i >= system.accelerations {
-                    let varies = !matches!(m[p][p], Element::Whole(ValueRef::Constant(_)));
-                    compliance[i][usize::from(varies)].push(quote!(#l * #element));
-                }
-                factors.push((i, p));
-                for &j in rest {
-                    if matches!(m[p][j], Element::Zero) {
-                        continue;
-                    }
-                    let mirrored = system.symmetric
-                        && leading
-                        && i < system.accelerations
-                        && j < system.accelerations
-                        && order.iter().position(|&x| x == j) < order.iter().position(|&x| x == i);
-                    if mirrored {
-                        m[i][j] = m[j][i].clone();
-                        continue;
-                    }
-                    let name = format_ident!("m{}_{}_{}", i, j, step, span = l.span());
-                    let across = read(&m[p][j]);
-                    let line = match &m[i][j] {
-                        Element::Zero => quote!(let #name = -(#l * #across);),
-                        element => {
-                            let element = read(element);
-                            quote!(let #name = #element - #l * #across;)
-                        }
-                    };
-                    code.extend(line);
-                    m[i][j] = Element::Reduced(name);
+        };
+        self.code.extend(quote!(let #name = #inverse;));
+    }
+
+    /// Takes the row of the pivot out of those below.
+    fn subtract(&mut self, step: usize) {
+        let (p, rest) = (self.order[step], &self.order[step + 1..]);
+        let name = reciprocal(p);
+        for &i in rest {
+            if matches!(self.m[i][p], Element::Zero) {
+                continue;
+            }
+            let (l, element) = (factor(i, p), self.read(&self.m[i][p]));
+            self.code.extend(quote!(let #l = #element * #name;));
+            if self.is_inertia(p) && i >= self.system.accelerations {
+                let varies = !self.is_constant(p);
+                self.compliance[i][usize::from(varies)].push(quote!(#l * #element));
+            }
+            self.factors.push((i, p));
+            for &j in rest {
+                if !matches!(self.m[p][j], Element::Zero) {
+                    self.m[i][j] = self.reduced(step, i, j);
                 }
             }
         }
+    }
+
+    /// Kᵢⱼ − l Kₚⱼ
+    fn reduced(&mut self, step: usize, i: usize, j: usize) -> Element {
+        let p = self.order[step];
+        let at = |index: usize| self.order.iter().position(|&x| x == index);
+        let free = self.system.accelerations;
+        if self.is_inertia(p) && i < free && j < free && at(j) < at(i) {
+            return self.m[j][i].clone();
+        }
+        let l = factor(i, p);
+        let name = format_ident!("m{}_{}_{}", i, j, step, span = l.span());
+        let across = self.read(&self.m[p][j]);
+        let result = match &self.m[i][j] {
+            Element::Zero => quote!(-(#l * #across)),
+            element => {
+                let element = self.read(element);
+                quote!(#element - #l * #across)
+            }
+        };
+        self.code.extend(quote!(let #name = #result;));
+        Element::Reduced(name)
+    }
+}
+
+impl<'a> Elimination<'a> {
+    pub fn new(writer: &Writer, system: &'a LinearSystem) -> Elimination<'a> {
+        let order = order(system);
+        let mut work = Work::new(writer, system, &order);
+        for (step, &p) in order.iter().enumerate() {
+            if step == system.accelerations {
+                work.begin_rows(step);
+            }
+            if !system.units[p] {
+                work.test(step);
+                work.invert(p);
+                work.subtract(step);
+            }
+        }
+        let (factors, upper, code) = (work.factors, work.m, work.code);
         Elimination {
             system,
             order,
             factors,
-            upper: m,
+            upper,
             code,
         }
     }

@@ -18,74 +18,18 @@ pub fn function(
     mode: &ModeProgram,
     plan: &Plan,
 ) -> TokenStream {
-    let system = &program.equations.system;
-    let writer = Writer::new(system, mode, names::crossing(&mode.tape));
+    let writer = Writer::new(&program.equations.system, mode, names::crossing(&mode.tape));
     let elimination = Elimination::new(&writer, &mode.results.system);
-    let (solve, solution) = elimination.solve_system(&writer);
-    let factors = &elimination.code;
-    let unknowns = solution.iter().enumerate().map(|(i, x)| {
-        let name = writer.value(mode.inputs.unknown(i));
-        quote!(let #name = #x;)
-    });
-    let nothing = |_: &Block| TokenStream::new();
-    let serves = mode.serves_values();
-    let shared = mode.blocks(Phase::Balance).map(|block| {
-        let steps = block.steps.iter().filter(|step| serves[step.value.0]);
-        let steps = steps.map(|step| writer.step(step));
-        in_block(block, quote!(#(#steps)*))
-    });
-    let [assembly, accelerations, forces] = [Phase::Assembly, Phase::Accelerations, Phase::Forces]
-        .map(|phase| blocks(&writer, phase, nothing));
     let (rates, values) = (local("rates"), local("values"));
-    let rates_of = mode
-        .results
-        .accelerations
-        .iter()
-        .enumerate()
-        .map(|(j, place)| {
-            let (j, value) = (index(j), writer.place(*place));
-            quote!(#rates[#j] = #value;)
-        });
-    let of_rows = mode
-        .results
-        .forces
-        .iter()
-        .enumerate()
-        .filter_map(|(r, place)| {
-            let (row, value) = (index(force_row(mode, r)), writer.place((*place)?));
-            Some(quote!(#values[#row] = #value;))
-        });
-    let results = results(mode).into_iter().map(|(value, place)| {
-        let (name, result) = (writer.value(value), writer.place(place));
-        quote!(let #name = #result;)
-    });
-    let kept = kept(mode, plan);
-    let store = |row: usize, place: ValueRef| {
-        let (row, value) = (index(row), writer.place(place));
-        quote!(#values[#row] = #value;)
-    };
-    let outputs = blocks(&writer, Phase::Outputs, |block| {
-        let writes = block.writes.iter();
-        let single = writes.filter(|write| !writer.sums.contains(&write.output));
-        let rows = single.filter_map(|write| {
-            let place = ValueRef::Node(write.output);
-            Some(store(*kept.get(&place)?, place))
-        });
-        quote!(#(#rows)*)
-    });
-    let whole = kept.iter().filter(|(place, _)| match place {
-        ValueRef::Node(output) => writer.sums.contains(output),
-        ValueRef::Constant(_) => true,
-        ValueRef::Zero => false,
-    });
-    let whole = whole.map(|(place, row)| store(*row, *place));
-    let projection = projection(&writer, &elimination, program, plan);
     let (c, held) = (local("c"), local("held"));
     let (t, q, v) = (local("t"), local("q"), local("v"));
     let number = &writer.number;
     let prologue = writer.prologue();
-    let declarations = writer.declarations();
     let needs = names::needs(program.equations.needs.len());
+    let declarations = writer.declarations();
+    let solved = solved(&writer, &elimination, mode);
+    let reported = reported(&writer, mode, plan);
+    let projection = projection(&writer, &elimination, program, plan);
     let (count, numbers) = (index(mode.inputs.coordinates), index(numbers(mode, plan)));
     let safe = local("safe");
     quote! {
@@ -101,24 +45,87 @@ pub fn function(
             let #rates = first_mut::<#count, _>(#rates);
             #needs
             #declarations
-            #assembly
-            #factors
-            #solve
-            #(#unknowns)*
-            #(#shared)*
-            #accelerations
-            #(#rates_of)*
+            #solved
             if let ::core::option::Option::Some(#values) = #values {
                 let #values = first_mut::<#numbers, _>(#values);
-                #forces
-                #(#of_rows)*
-                #(#results)*
-                #outputs
-                #(#whole)*
+                #reported
                 #projection
             }
             #safe
         }
+    }
+}
+
+/// Solves the linear system, and writes the accelerations.
+fn solved(writer: &Writer, elimination: &Elimination, mode: &ModeProgram) -> TokenStream {
+    let nothing = |_: &Block| TokenStream::new();
+    let assembly = blocks(writer, Phase::Assembly, nothing);
+    let factors = &elimination.code;
+    let (solve, solution) = elimination.solve_system(writer);
+    let unknowns = solution.iter().enumerate().map(|(i, x)| {
+        let name = writer.value(mode.inputs.unknown(i));
+        quote!(let #name = #x;)
+    });
+    let serves = mode.serves_values();
+    let shared = mode.blocks(Phase::Balance).map(|block| {
+        let steps = block.steps.iter().filter(|step| serves[step.value.0]);
+        let steps = steps.map(|step| writer.step(step));
+        in_block(block, quote!(#(#steps)*))
+    });
+    let accelerations = blocks(writer, Phase::Accelerations, nothing);
+    let rates = local("rates");
+    let places = mode.results.accelerations.iter().enumerate();
+    let rates_of = places.map(|(j, place)| {
+        let (j, value) = (index(j), writer.place(*place));
+        quote!(#rates[#j] = #value;)
+    });
+    quote! {
+        #assembly
+        #factors
+        #solve
+        #(#unknowns)*
+        #(#shared)*
+        #accelerations
+        #(#rates_of)*
+    }
+}
+
+/// Writes the forces and what guards read.
+fn reported(writer: &Writer, mode: &ModeProgram, plan: &Plan) -> TokenStream {
+    let values = local("values");
+    let store = |row: usize, place: ValueRef| {
+        let (row, value) = (index(row), writer.place(place));
+        quote!(#values[#row] = #value;)
+    };
+    let forces = blocks(writer, Phase::Forces, |_| TokenStream::new());
+    let places = mode.results.forces.iter().enumerate();
+    let of_rows = places.filter_map(|(r, place)| Some(store(force_row(mode, r), (*place)?)));
+    let results = results(mode).into_iter().map(|(value, place)| {
+        let (name, result) = (writer.value(value), writer.place(place));
+        quote!(let #name = #result;)
+    });
+    let kept = kept(mode, plan);
+    let outputs = blocks(writer, Phase::Outputs, |block| {
+        let writes = block.writes.iter();
+        let single = writes.filter(|write| !writer.sums.contains(&write.output));
+        let rows = single.filter_map(|write| {
+            let place = ValueRef::Node(write.output);
+            Some(store(*kept.get(&place)?, place))
+        });
+        quote!(#(#rows)*)
+    });
+    let whole = kept.iter().filter(|(place, _)| match place {
+        ValueRef::Node(output) => writer.sums.contains(output),
+        ValueRef::Constant(_) => true,
+        ValueRef::Zero => false,
+    });
+    let whole = whole.map(|(place, row)| store(*row, *place));
+    quote! {
+        #forces
+        #(#of_rows)*
+        #(#results)*
+        #outputs
+        #(#whole)*
     }
 }
 
