@@ -1,0 +1,391 @@
+//! Outcome → text: the story of the run, then the energy book and the work counts.
+//!
+//! Each event has two lines: above, the forces just before; below, just after, with what the mode does now that it did not before.
+//! An impact shows impulses instead, in one line. Numbers of a column have the same number of decimals, so that they can be compared by eye.
+
+mod decimals;
+mod line;
+mod story;
+
+use super::words::{FEW, MANY};
+use crate::outcome::Outcome;
+use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
+use decimals::time;
+use lagrange_core::prelude::*;
+use lagrange_core::trajectory::Entry;
+use line::instants;
+use std::io::{self, Write};
+use story::story;
+
+pub(super) use decimals::Decimals;
+
+/// Columns of the page.
+pub(super) const WIDTH: u16 = 100;
+
+/// What the Jacobi integral is, said where it is not the energy.
+const JACOBI: &str = "The works above change the Jacobi integral, not T + V: something moves as it is told to, and what it does to T + V has no line.";
+
+/// Writes the story of `outcome`.
+pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
+    let left_out = outcome.left_out();
+    if !left_out.is_empty() {
+        writeln!(out, "Without {}.\n", left_out.join(", "))?;
+    }
+    writeln!(out, "{}", story(outcome).trim_fmt())?;
+    let open = outcome.undetermined();
+    if !open.is_empty() {
+        let depends = match outcome.slides_undetermined() {
+            false => "does not depend",
+            true => "may depend, since some slide,",
+        };
+        writeln!(
+            out,
+            "\nNot determined: {}. What moves {depends} on how these forces are shared out; \
+             shown are the least that contacts and friction allow.",
+            open.join(", ")
+        )?;
+    }
+    if let Some(choice) = choices(outcome) {
+        writeln!(out, "\n{choice}")?;
+    }
+    if let Some(stiffness) = outcome.stiffness() {
+        writeln!(out, "\n{stiffness}")?;
+    }
+    if let Some(ledger) = &outcome.ledger {
+        let unit = outcome.description.units.energy;
+        writeln!(out, "\n{}", energy(ledger, unit).trim_fmt())?;
+        writeln!(
+            out,
+            "The ledger{} closes to {:.1e} of its scale, {}{}{unit}.",
+            match ledger.has_own_jacobi() {
+                true => " of the Jacobi integral",
+                false => "",
+            },
+            ledger.closure.abs() / ledger.scale.max(f64::MIN_POSITIVE),
+            Decimals::of([ledger.scale]).show(ledger.scale),
+            if unit.is_empty() { "" } else { " " }
+        )?;
+        if ledger.has_own_jacobi() {
+            writeln!(out, "{JACOBI}")?;
+        }
+    }
+    if let Some(estimate) = &outcome.estimate {
+        writeln!(out, "{estimate}")?;
+    }
+    if let Some(certificate) = &outcome.certificate {
+        writeln!(out, "{certificate}")?;
+    }
+    writeln!(out, "\n{}", work(outcome))
+}
+
+/// Where the motion could have gone on in another way, if anywhere.
+fn choices(outcome: &Outcome) -> Option<String> {
+    let groups = instants(&outcome.events);
+    let mut open: Vec<String> = groups
+        .iter()
+        .filter(|(_, group)| group.iter().any(|event| event.ambiguous))
+        .map(|(_, group)| format!("t = {} s", time(group[0].time, outcome.lasts())))
+        .collect();
+    open.dedup();
+    let told = match open.len() > FEW {
+        true => MANY,
+        false => open.len(),
+    };
+    let more = match open.len() - told {
+        0 => String::new(),
+        more => format!(" and {more} times more"),
+    };
+    let at = open[..told].join(", ");
+    (told > 0).then(|| {
+        format!("More than one motion is possible at {at}{more}: a run takes one, `lagrange modes` lists all.")
+    })
+}
+
+/// Of a force's impulse, `N s`.
+pub(super) fn impulse_unit(force: &str) -> String {
+    match force {
+        "" => String::new(),
+        unit if unit.contains('/') => format!("({unit}) s"),
+        unit => format!("{unit} s"),
+    }
+}
+
+fn energy(ledger: &Ledger, unit: &str) -> Table {
+    let (start, end) = (&ledger.start, &ledger.end);
+    let mut lines = vec![
+        ("kinetic", start.kinetic, end.kinetic),
+        ("potential", start.potential, end.potential),
+        ("total", start.total(), end.total()),
+    ];
+    if ledger.has_own_jacobi() {
+        lines.push(("Jacobi integral", start.jacobi, end.jacobi));
+    }
+    let works = ledger.work.iter().map(|entry| entry.work);
+    let decimals = Decimals::of(lines.iter().flat_map(|(_, a, b)| [*a, *b]).chain(works));
+    // Whoever did nothing that the digits show is left out; friction is worth a line even then.
+    let counts = |entry: &&Entry| {
+        entry.kind == "friction"
+            || decimals
+                .show(entry.work)
+                .contains(|digit| matches!(digit, '1'..='9'))
+    };
+    let shown: Vec<&Entry> = ledger.work.iter().filter(counts).collect();
+    let mut table = page();
+    let heading = match unit {
+        "" => "energy".to_owned(),
+        unit => format!("energy, {unit}"),
+    };
+    table.set_header([&heading, "start", "end", "change"]);
+    for (name, a, b) in lines {
+        table.add_row([
+            name.to_owned(),
+            decimals.show(a),
+            decimals.show(b),
+            decimals.show(b - a),
+        ]);
+    }
+    for entry in &shown {
+        let name = format!("work of {} ({})", entry.name, entry.kind);
+        table.add_row([
+            name,
+            String::new(),
+            String::new(),
+            decimals.show(entry.work),
+        ]);
+    }
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}
+
+fn work(outcome: &Outcome) -> String {
+    let Work {
+        steps,
+        rejected,
+        evaluations,
+        series,
+        factorizations,
+        projections,
+    } = outcome.work;
+    let of = |count: usize, noun: &str| match count {
+        1 => format!("1 {noun}"),
+        _ => format!("{count} {noun}s"),
+    };
+    format!(
+        "Work: {}, {rejected} rejected, {}, {series} series, {}, {}, {}.",
+        of(steps, "step"),
+        of(evaluations, "evaluation"),
+        of(factorizations, "factorization"),
+        of(projections, "projection"),
+        of(outcome.events.len(), "event"),
+    )
+}
+
+/// Whether a figure is within its bound.
+pub(super) fn verdict(holds: bool) -> &'static str {
+    match holds {
+        true => "holds",
+        false => "FAILS",
+    }
+}
+
+pub(super) fn page() -> Table {
+    let rule = LineStyle::none().fill('─').junction('─');
+    let mut table = Table::new();
+    table
+        .load_style(TableStyle::new().header_separator(rule))
+        .set_content_arrangement(ContentArrangement::Dynamic)
+        .set_width(WIDTH);
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Decimals, time};
+    use crate::file::scene;
+    use crate::request::Request;
+
+    /// The story of a run, with single blanks.
+    fn story(declared: &str) -> Vec<String> {
+        let scene = scene("told.lagrange", declared).expect("a declaration");
+        let outcome = scene.run(&Request::default()).expect("a run");
+        let mut text = Vec::new();
+        super::write(&outcome, &mut text).expect("memory");
+        let text = String::from_utf8(text).expect("text");
+        let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
+        text.lines().map(words).collect()
+    }
+
+    /// A bead on a hoop that is turned: T has no form quadratic in the velocity, and v ∂T/∂v − T + V stays.
+    #[test]
+    fn a_story_shows_the_jacobi_integral_where_it_is_not_the_energy() {
+        let declared = "
+            parameters(m = 0.5, g = 10, r = 2, rate = 3), coordinates(theta),
+            kinetic = m/2 * r^2 * (der(theta)^2 + rate^2 * sin(theta)^2),
+            potential = -m * g * r * cos(theta), start(a: theta = 0.5), until = 1,";
+        let lines = story(declared);
+        let (sin, cos) = 0.5_f64.sin_cos();
+        let h = -0.5 * 0.5 * 4.0 * 9.0 * sin * sin - 0.5 * 10.0 * 2.0 * cos;
+        let own = format!("Jacobi integral {h:.3} {h:.3} 0.000");
+        assert!(lines.contains(&own), "{own}\n{lines:#?}");
+        let closes = "The ledger of the Jacobi integral closes to";
+        assert!(lines.iter().any(|line| line.starts_with(closes)));
+        assert!(lines.iter().any(|line| line == super::JACOBI));
+        let still = story(&declared.replace("rate = 3", "rate = 0"));
+        assert!(still.iter().all(|line| !line.contains("Jacobi")));
+    }
+
+    /// A pendulum let go at 60°: it passes below with θ̇² = g/l.
+    #[test]
+    fn outputs_that_are_angles_are_in_degrees_as_coordinates_are() {
+        let lines = story(
+            "parameters(m: \"kg\" = 1, l: \"m\" = 1, g: \"m/s^2\" = 10), coordinates(theta: \"rad\"),
+             kinetic = m/2 * l^2 * der(theta)^2, potential = -m * g * l * cos(theta),
+             observe(incline = theta + pi/6, rate = -der(theta)), start(up: theta = pi/3), stop(low: theta <= 0)",
+        );
+        assert!(lines.contains(&"s ° ° °/s".to_owned()), "{lines:#?}");
+        let rate = 10_f64.sqrt().to_degrees();
+        for told in [
+            "start 60.000 90.000 0.00 smooth".to_owned(),
+            format!("low stop 0.000 30.000 {rate:.2} smooth"),
+        ] {
+            assert!(
+                lines.iter().any(|line| line.ends_with(&told)),
+                "{told}\n{lines:#?}"
+            );
+        }
+    }
+
+    /// Two equal springs: one is in the middle when the other is.
+    #[test]
+    fn what_is_rounding_at_every_event_is_shown_as_zero() {
+        let lines = story(
+            "coordinates(a, b), kinetic = (der(a)^2 + der(b)^2) / 2, potential = (a^2 + b^2) / 2,
+             mark(middle: a), stop(end: t >= 6 and a >= 0), start(both: der(a) = 1, der(b) = 1e-3), until = 6.5,",
+        );
+        let middle = "middle mark 0.0000 0.0000000";
+        assert_eq!(
+            lines.iter().filter(|line| line.contains(middle)).count(),
+            2,
+            "{lines:#?}"
+        );
+    }
+
+    /// A puck that is pushed along one of two directions that are not those of its coordinates.
+    #[test]
+    fn what_is_error_across_a_friction_is_shown_as_zero() {
+        let lines = story(
+            "coordinates(a, b), parameters(c = 0.6, s = 0.8, f = 3, g = 1), kinetic = (der(a)^2 + der(b)^2) / 2,
+             force(push: f * t along c * der(a) + s * der(b)),
+             friction(table: slip = (c * der(a) + s * der(b), c * der(b) - s * der(a)), limit = g), start(rest: a = 0), until = 1,",
+        );
+        let slips = lines.iter().find(|line| line.contains("table slips"));
+        assert!(
+            slips.is_some_and(|line| line.contains("-1.0000 0.0000")),
+            "{lines:#?}"
+        );
+    }
+
+    /// A bead in a hoop that turns: where it does not move along the hoop, what turns the hoop needs no torque.
+    #[test]
+    fn a_force_that_is_rounding_beside_others_is_shown_as_zero() {
+        let lines = story(
+            "coordinates(r, theta, psi), parameters(w = 3), kinetic = (der(r)^2 + r^2*der(theta)^2 + r^2*sin(theta)^2*der(psi)^2)/2,
+             potential = -10*r*cos(theta), constraint(hoop: r == 1), constraint(turning: psi == w*t),
+             stop(rests: t >= 1 and der(theta) >= 0), start(out: r = 1, theta = 1, der(psi) = w), until = 3",
+        );
+        let stop = lines.iter().find(|line| line.contains("rests stop"));
+        assert!(
+            stop.is_some_and(|line| line.contains(" -11.776 0.000 ")),
+            "{lines:#?}"
+        );
+    }
+
+    /// A ladder that slips at once at both ends: while it slips its forces are determined.
+    #[test]
+    fn what_never_acted_is_not_told_as_undetermined() {
+        let lines = story(
+            "parameters(m: \"kg\" = 10, l: \"m\" = 2, g: \"m/s^2\" = 9.81, lean = 0.7), coordinates(x: \"m\", y: \"m\", theta),
+             kinetic = m/2*(der(x)^2 + der(y)^2) + m*l^2/6*der(theta)^2, potential = m*g*y,
+             contact(floor: y - l*cos(theta) >= 0), contact(wall: x + l*sin(theta) <= 0),
+             friction(foot on floor: slip = der(x - l*sin(theta)), static = 0.3),
+             friction(head on wall: slip = der(y + l*cos(theta)), static = 0.2),
+             start(leaning: theta = lean, x = -l*sin(lean), y = l*cos(lean)), until = 0.2",
+        );
+        assert!(
+            lines.iter().any(|line| line.contains("foot slips")),
+            "{lines:#?}"
+        );
+        assert!(lines.iter().all(|line| !line.starts_with("Not determined")));
+    }
+
+    /// Two blocks that are pulled too hard, and one that is not: nobody sees the two stick, and 10 N on 2 N of friction are 4 m in a second.
+    #[test]
+    fn the_start_is_one_row_with_what_was_decided_there() {
+        let lines = story(
+            "parameters(f = 10, g = 2), coordinates(a, b, c), kinetic = (der(a)^2 + der(b)^2 + der(c)^2) / 2,
+             force(pull: f along der(a) + der(b)), force(push: c = 1), friction(fa: slip = der(a), limit = g),
+             friction(fb: slip = der(b), limit = g), friction(fc: slip = der(c), limit = g), start(rest: a = 0), until = 1,",
+        );
+        let starting = |with: &str| lines.iter().filter(|line| line.starts_with(with)).count();
+        assert_eq!(starting("0.000000"), 1, "{lines:#?}");
+        let start = "0.000000 start 0.0000 0.0000 0.0000 -2.0000 -2.0000 -1.0000 fa and fb slip";
+        assert_eq!(starting(start), 1, "{lines:#?}");
+        assert!(
+            starting("fa slips") > 0 && starting("fb slips") > 0,
+            "{lines:#?}"
+        );
+        assert_eq!(
+            starting("1.000000 end 4.0000 4.0000 0.0000"),
+            1,
+            "{lines:#?}"
+        );
+        assert!(
+            lines.iter().all(|line| !line.contains("-10.000")),
+            "{lines:#?}"
+        );
+    }
+
+    /// Two blocks on one ramp of force let go at the same instant: one row, forces before and after.
+    #[test]
+    fn what_switches_at_one_instant_is_one_row() {
+        let lines = story(
+            "parameters(f = 4, hold = 2, rub = 1), coordinates(a, b),
+             kinetic = (der(a)^2 + der(b)^2) / 2, force(pull: f * t along der(a) + der(b)),
+             friction(fa: slip = der(a), static = hold, kinetic = rub, normal = 1),
+             friction(fb: slip = der(b), static = hold, kinetic = rub, normal = 1),
+             start(rest: a = 0), until = 1,",
+        );
+        let rows = lines.iter().filter(|line| line.starts_with("0.500000"));
+        assert_eq!(rows.count(), 1, "{lines:#?}");
+        let second = lines.iter().find(|line| line.starts_with("fb slips"));
+        assert!(
+            second.is_some_and(|line| line.contains("-1.0000 -1.0000")),
+            "{lines:#?}"
+        );
+    }
+
+    #[test]
+    fn five_digits_of_the_largest_number_and_no_negative_zero() {
+        let decimals = Decimals::of([12.3456789, -0.00001]);
+        assert_eq!(decimals.show(12.3456789), "12.346");
+        assert_eq!(decimals.show(-0.00001), "0.000");
+        assert_eq!(Decimals::of([0.0]).show(-0.0), "0.0000");
+        assert_eq!(Decimals::of([123456.7]).show(123456.7), "123457");
+        let far = Decimals::of([-1.5e300]);
+        assert_eq!(
+            [-1.5e300, 2.0, -0.0].map(|x| far.show(x)),
+            ["-1.5000e300", "2.0000e0", "0"]
+        );
+        assert_eq!(Decimals::of([3e-20]).show(3e-20), "3.0000e-20");
+        assert_eq!(Decimals::of([5e-7]).show(5e-7), "5.0000e-7");
+    }
+
+    #[test]
+    fn times_have_the_digits_that_a_short_run_needs() {
+        assert_eq!(time(2.5, 3.0), "2.500000");
+        assert_eq!(time(4.35e-6, 1e-4), "0.000004350");
+        assert_eq!(time(0.0, 0.0), "0.000000");
+    }
+}

@@ -1,0 +1,228 @@
+//! The story of a run as a table: which numbers are shown, with how many digits, and how wide the columns are.
+
+use super::decimals::{Decimals, time};
+use super::line::{Line, lines};
+use super::{impulse_unit, page};
+use crate::notation::{is_angle, symbol};
+use crate::outcome::{Force, Outcome, forces};
+use crate::quantity::Quantity;
+use crate::report::telling;
+use comfy_table::{CellAlignment, ColumnConstraint, Table, Width};
+use lagrange_core::system::Description;
+
+/// So many numbers, forces among them, stand in a line of the story beside its mode.
+const NUMBERS: usize = 6;
+
+/// A coordinate or an output in the story.
+struct Column {
+    head: String,
+    /// Place in [`Line::state`].
+    place: usize,
+    scale: f64,
+}
+
+impl Column {
+    fn of(&self, line: &Line) -> Option<f64> {
+        Some(line.state[self.place]? * self.scale)
+    }
+
+    /// As many as the lines need. What is nothing but error in all of them is shown beside how far its velocities carry a coordinate, or what an
+    /// output ever is.
+    fn decimals(&self, lines: &[Line], outcome: &Outcome) -> Decimals {
+        let told: Vec<f64> = lines.iter().filter_map(|line| self.of(line)).collect();
+        let largest = |values: &[f64]| values.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+        let samples = outcome.samples.iter().map(|sample| &sample.state);
+        let events = outcome.events.iter();
+        let states = samples.chain(events.flat_map(|event| [&event.state, &event.state_after]));
+        let speeds: Vec<f64> = states
+            .filter_map(|state| state.v.get(self.place).copied())
+            .collect();
+        let output = self
+            .place
+            .checked_sub(outcome.description.coordinates.len());
+        let ever = match output {
+            Some(i) => {
+                let values = outcome.samples.iter().map(|sample| sample.observes[i]);
+                largest(&values.collect::<Vec<_>>())
+            }
+            None => largest(&speeds) * outcome.lasts(),
+        };
+        let ever = ever * self.scale;
+        match largest(&told) < outcome.tolerance * ever {
+            true => Decimals::of([ever]),
+            false => Decimals::of(told),
+        }
+    }
+}
+
+/// Angles, or all coordinates if none is an angle; then outputs, and then the other coordinates, where there is room beside the forces.
+fn shown(description: &Description, forces: usize) -> Vec<Column> {
+    let coordinates = description.coordinates;
+    let telling = telling(description);
+    let (angles, others): (Vec<usize>, Vec<usize>) =
+        telling.iter().partition(|&&i| is_angle(&coordinates[i]));
+    let first = if angles.is_empty() { &others } else { &angles };
+    let mut places = first.clone();
+    let outputs = (0..description.observes.len()).map(|i| coordinates.len() + i);
+    for more in [outputs.collect(), others] {
+        let new: Vec<usize> = more
+            .into_iter()
+            .filter(|place| !places.contains(place))
+            .collect();
+        if forces + places.len() + new.len() <= NUMBERS {
+            places.extend(new);
+        }
+    }
+    places.sort_unstable();
+    let column = |place: usize| {
+        let (name, quantity) = match place.checked_sub(coordinates.len()) {
+            None => (coordinates[place].name, Quantity::Position(place)),
+            Some(i) => (description.observes[i].name, Quantity::Output(i)),
+        };
+        Column {
+            head: format!("{}\n{}", symbol(name), quantity.unit(description)),
+            place,
+            scale: quantity.scale(description),
+        }
+    };
+    places.into_iter().map(column).collect()
+}
+
+/// As many as the lines need. What is nothing but error in all of them is shown like what it is an error of: the other component of its
+/// friction, what the force holds in balance, or, of rounding alone, the largest force of its unit.
+fn decimals_of_forces(items: &[Force], lines: &[Line], outcome: &Outcome) -> Vec<Decimals> {
+    let told = |k: usize| {
+        let sides = lines.iter().flat_map(|line| [&line.upper, &line.lower]);
+        sides.filter_map(move |forces| *forces.get(k)?)
+    };
+    let largest: Vec<f64> = (0..items.len())
+        .map(|k| told(k).fold(0.0, |a: f64, x| a.max(x.abs())))
+        .collect();
+    let of_all = |alike: &dyn Fn(&Force) -> bool| {
+        let all = items.iter().zip(&largest);
+        let alike = all.filter(|(item, _)| alike(item));
+        alike.fold(0.0, |a: f64, (_, x)| a.max(*x))
+    };
+    let unit = |item: &Force| outcome.description.units.row(item.row);
+    let decimals = |(k, item): (usize, &Force)| {
+        let held = outcome.samples.iter().map(|sample| sample.held[item.row]);
+        let whole = held.fold(of_all(&|other| other.source == item.source), f64::max);
+        let beside = of_all(&|other| unit(other) == unit(item));
+        if largest[k] < outcome.tolerance * whole {
+            Decimals::of([whole])
+        } else if largest[k] < f64::EPSILON * beside {
+            Decimals::of([beside])
+        } else {
+            Decimals::of(told(k))
+        }
+    };
+    items.iter().enumerate().map(decimals).collect()
+}
+
+/// The table of what happened.
+pub(super) fn story(outcome: &Outcome) -> Table {
+    let items = forces(outcome.description);
+    let lines = lines(outcome, &items);
+    let columns = shown(outcome.description, items.len());
+    let estimated = lines.iter().any(|line| line.error.is_some());
+    let mut table = page();
+    table.set_header(header(outcome, &items, &columns, estimated));
+    let of_coordinates = columns.iter();
+    let of_coordinates: Vec<Decimals> = of_coordinates
+        .map(|column| column.decimals(&lines, outcome))
+        .collect();
+    let of_forces = decimals_of_forces(&items, &lines, outcome);
+    let units = &outcome.description.units;
+    for line in &lines {
+        let mut row = vec![time(line.time, outcome.lasts())];
+        if estimated {
+            row.push(line.error.map_or(String::new(), off));
+        }
+        row.push(line.event.clone());
+        let numbers = columns.iter().zip(&of_coordinates);
+        row.extend(numbers.map(|(column, decimals)| {
+            let number = column.of(line);
+            number.map_or(String::new(), |x| decimals.show(x))
+        }));
+        let forces = items.iter().zip(&of_forces).enumerate();
+        row.extend(
+            forces.map(|(k, (item, decimals))| two_lines(line, k, *decimals, units.row(item.row))),
+        );
+        row.push(line.mode.clone());
+        table.add_row(row);
+    }
+    let times = 1 + usize::from(estimated);
+    lay_out(&mut table, &lines, times, columns.len() + items.len());
+    table
+}
+
+fn header(outcome: &Outcome, items: &[Force], columns: &[Column], estimated: bool) -> Vec<String> {
+    let units = &outcome.description.units;
+    let mut header = vec!["t\ns".to_owned()];
+    if estimated {
+        header.push("±\ns".to_owned());
+    }
+    header.push("event".to_owned());
+    header.extend(columns.iter().map(|column| column.head.clone()));
+    let forces = items.iter();
+    header.extend(forces.map(|item| format!("{}\n{}", item.name, units.row(item.row))));
+    header.push("mode".to_owned());
+    header
+}
+
+/// How far off a time is.
+fn off(error: f64) -> String {
+    match error < 1e-15 {
+        true => "<1e-15".to_owned(),
+        false => format!("{error:.0e}"),
+    }
+}
+
+/// Force number `k`, before and after.
+fn two_lines(line: &Line, k: usize, decimals: Decimals, unit: &str) -> String {
+    let show = |values: &[Option<f64>]| match values.get(k).copied().flatten() {
+        Some(value) if line.impulse => {
+            let shown = format!("{} {}", decimals.show(value), impulse_unit(unit));
+            shown.trim_end().to_owned()
+        }
+        Some(value) => decimals.show(value),
+        None => String::new(),
+    };
+    let both = format!("{}\n{}", show(&line.upper), show(&line.lower));
+    both.trim_end().to_owned()
+}
+
+/// The widths of the columns: `times`, the event, so many `numbers`, the mode.
+fn lay_out(table: &mut Table, lines: &[Line], times: usize, numbers: usize) {
+    // Beside so many numbers that they are wider than a page, texts need not be narrow.
+    let wide = numbers > NUMBERS;
+    let (event, mode) = (times, times + 1 + numbers);
+    for (index, column) in table.column_iter_mut().enumerate() {
+        column.set_padding((1, 0));
+        if index == event {
+            // No name is broken: the longest word and the space before it.
+            let of = |line: &Line| match wide {
+                true => longest(line.event.lines()),
+                false => longest(line.event.split_whitespace()),
+            };
+            let least = lines.iter().map(of).max().unwrap_or(0) + 1;
+            column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(least)));
+        } else if index == mode {
+            let most = if wide { 40 } else { 18 };
+            let modes = lines.iter().flat_map(|line| line.mode.lines());
+            let least = longest(modes).clamp(18, most);
+            column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(least)));
+        } else {
+            column.set_cell_alignment(CellAlignment::Right);
+            column.set_constraint(ColumnConstraint::ContentWidth);
+        }
+    }
+}
+
+/// Characters of the longest of some texts.
+fn longest<'a>(texts: impl Iterator<Item = &'a str>) -> u16 {
+    texts
+        .map(|text| text.chars().count() as u16)
+        .max()
+        .unwrap_or(0)
+}
