@@ -22,34 +22,56 @@ struct Piece {
     ends: [f64; 4],
 }
 
+/// What the runs along the axis have.
+struct Runs {
+    /// Pieces of each curve; none where no run has the observation.
+    pieces: Vec<Vec<Option<Piece>>>,
+    /// Pieces of the axis with a run that failed.
+    failed: Vec<bool>,
+    /// The least and the greatest value of each observation.
+    edges: Vec<Option<(f64, f64)>>,
+}
+
+impl Runs {
+    /// Reads the observations of these `numbers`.
+    fn read(sweep: &Sweep, journal: &Journal, numbers: &[usize]) -> Result<Runs, Failure> {
+        let axis = &sweep.points.axes[0];
+        let count = axis.count.min(MOST);
+        let mut runs = Runs {
+            pieces: vec![vec![None; count]; numbers.len()],
+            failed: vec![false; count],
+            edges: vec![None; sweep.observed.len()],
+        };
+        let mut index = 0;
+        lines(sweep, journal, |_, observed, failure| {
+            let place = index * count / axis.count;
+            index += 1;
+            runs.failed[place] |= failure.is_some();
+            for (pieces, &index) in runs.pieces.iter_mut().zip(numbers) {
+                let value = observed[index];
+                if value.is_nan() {
+                    continue;
+                }
+                runs.edges[index] = joined(runs.edges[index], Some((value, value)));
+                let [first, least, most, _] = pieces[place].map_or([value; 4], |piece| piece.ends);
+                pieces[place] = Some(Piece {
+                    ends: [first, least.min(value), most.max(value), value],
+                });
+            }
+            Ok(())
+        })?;
+        Ok(runs)
+    }
+}
+
 /// `None` if no run has what was observed.
 pub(super) fn curves(sweep: &Sweep, journal: &Journal) -> Result<Option<Picture>, Failure> {
     let axis = &sweep.points.axes[0];
-    let count = axis.count.min(MOST);
     let (_, numbers) = columns(sweep);
-    let mut pieces: Vec<Vec<Option<Piece>>> = vec![vec![None; count]; numbers.len()];
-    let mut failed = vec![false; count];
-    let mut edges: Vec<Option<(f64, f64)>> = vec![None; sweep.observed.len()];
-    let mut index = 0;
-    lines(sweep, journal, |_, observed, failure| {
-        let place = index * count / axis.count;
-        index += 1;
-        failed[place] |= failure.is_some();
-        for (pieces, &index) in pieces.iter_mut().zip(&numbers) {
-            let value = observed[index];
-            if value.is_nan() {
-                continue;
-            }
-            edges[index] = joined(edges[index], Some((value, value)));
-            let [first, least, most, _] = pieces[place].map_or([value; 4], |piece| piece.ends);
-            pieces[place] = Some(Piece {
-                ends: [first, least.min(value), most.max(value), value],
-            });
-        }
-        Ok(())
-    })?;
+    let runs = Runs::read(sweep, journal, &numbers)?;
     let panels = panels(sweep, Scale::of(axis, 0.5), |numbers| {
-        numbers.iter().map(|index| edges[*index]).fold(None, joined)
+        let edges = numbers.iter().map(|index| runs.edges[*index]);
+        edges.fold(None, joined)
     });
     let Some((first, _)) = panels.first() else {
         return Ok(None);
@@ -57,10 +79,11 @@ pub(super) fn curves(sweep: &Sweep, journal: &Journal) -> Result<Option<Picture>
     let mut marks = Marks::of_size(px(2));
     let down = axis.from > axis.to;
     let edge = |i: usize| {
-        let part = i as f64 / count as f64;
+        let part = i as f64 / runs.failed.len() as f64;
         first.column(if down { 1.0 - part } else { part })
     };
-    for (i, _) in failed.iter().enumerate().filter(|(_, failed)| **failed) {
+    let failed = runs.failed.iter().enumerate();
+    for (i, _) in failed.filter(|(_, failed)| **failed) {
         let (from, to) = (edge(i).min(edge(i + 1)), edge(i).max(edge(i + 1)));
         for (frame, _) in &panels {
             marks.cell(Look::Failed, (from, frame.top), (to, frame.bottom));
@@ -72,34 +95,43 @@ pub(super) fn curves(sweep: &Sweep, journal: &Journal) -> Result<Option<Picture>
     });
     for (frame, index, colour) in curves {
         let place = numbers.iter().position(|number| number == index);
-        let pieces = place.map_or(&[][..], |place| &pieces[place]);
-        let mut curve: Vec<(i32, i32)> = Vec::new();
-        for (i, piece) in pieces.iter().enumerate() {
-            let Some(piece) = piece else {
-                // A curve ends where runs do not have the observation.
-                marks.curve(look(*colour), &std::mem::take(&mut curve));
-                continue;
-            };
-            let x = (edge(i) + edge(i + 1)) / 2;
-            let heights = piece.ends.map(|value| (x, frame.row(frame.y.part(value))));
-            curve.extend(heights);
-            curve.dedup();
-        }
-        marks.curve(look(*colour), &curve);
+        let pieces = place.map_or(&[][..], |place| &runs.pieces[place]);
+        draw(pieces, frame, edge, look(*colour), &mut marks);
     }
+    let hatched = match runs.failed.contains(&true) {
+        true => " (hatched: failed)",
+        false => "",
+    };
     Ok(Some(Picture {
-        heading: sweep.scene.name().to_owned()
-            + if failed.contains(&true) {
-                " (hatched: failed)"
-            } else {
-                ""
-            },
+        heading: format!("{}{hatched}", sweep.scene.name()),
         colours: None,
         marks,
         key: Vec::new(),
         height: height(panels.len()),
         frames: panels.into_iter().map(|(frame, _)| frame).collect(),
     }))
+}
+
+/// One curve, given where each piece of the axis begins; it ends where runs do not have the observation.
+fn draw(
+    pieces: &[Option<Piece>],
+    frame: &Frame,
+    edge: impl Fn(usize) -> i32,
+    look: Look,
+    marks: &mut Marks,
+) {
+    let mut curve: Vec<(i32, i32)> = Vec::new();
+    for (i, piece) in pieces.iter().enumerate() {
+        let Some(piece) = piece else {
+            marks.curve(look, &std::mem::take(&mut curve));
+            continue;
+        };
+        let x = (edge(i) + edge(i + 1)) / 2;
+        let heights = piece.ends.map(|value| (x, frame.row(frame.y.part(value))));
+        curve.extend(heights);
+        curve.dedup();
+    }
+    marks.curve(look, &curve);
 }
 
 pub(super) fn look(RGBColor(r, g, b): RGBColor) -> Look {
