@@ -173,6 +173,14 @@ fn what_only_a_file_has_is_checked() {
             "1:48: expected a number of seconds without a unit, as in `until = 10`, found `s` [E001]",
         ),
         (
+            format!("{rest}, until = 10 \"s\""),
+            "1:48: expected a number of seconds without a unit, as in `until = 10`, found `\"s\"` [E001]",
+        ),
+        (
+            format!("parameters(m = 1 positive), {rest}"),
+            "1:18: `positive` stands in the wrong place; a domain stands before the value: `m positive = 1` [E031]",
+        ),
+        (
             format!("{rest}, until = \"10 s\""),
             "1:45: expected a number of seconds without a unit, as in `until = 10`, found `\"10 s\"` [E001]",
         ),

@@ -61,7 +61,7 @@ impl Parameters {
     }
 }
 
-/// Where a time has a unit, `10s`, `10 s` or `"10 s"`: at the number, if the unit is in one token with it.
+/// Where a time has a unit, `10s`, `10 s`, `10 "s"` or `"10 s"`: at the number, if the unit is in one token with it.
 fn unit_of_time(part: &Cursor) -> Option<Cursor> {
     let mut behind = part.clone();
     let Some(TokenTree::Literal(number)) = behind.next() else {
@@ -70,9 +70,13 @@ fn unit_of_time(part: &Cursor) -> Option<Cursor> {
     let inside = number
         .to_string()
         .ends_with(|c: char| c.is_alphabetic() || c == '"');
+    let follows = matches!(
+        behind.peek(),
+        Some(TokenTree::Ident(_) | TokenTree::Literal(_))
+    );
     match inside {
         true => Some(part.clone()),
-        false => behind.word().is_some().then_some(behind),
+        false => follows.then_some(behind),
     }
 }
 
@@ -122,12 +126,13 @@ fn parameter(part: &mut Cursor, sink: &mut Diagnostics) -> Option<(Field, Expr)>
     }
     part.require("=", sink)?;
     let value = expression(part, sink)?;
-    if let Some(unit) = unit_behind(part) {
-        let right = format!(
-            "a unit stands before the value: `{}: \"{unit}\" = {value}`",
-            field.name.text
-        );
-        sink.report(Code::Misplaced, part.here(), &[&unit, &right]);
+    if let Some(behind) = unit_behind(part) {
+        let name = &field.name.text;
+        let right = match structure::is_domain(&behind) {
+            true => format!("a domain stands before the value: `{name} {behind} = {value}`"),
+            false => format!("a unit stands before the value: `{name}: \"{behind}\" = {value}`"),
+        };
+        sink.report(Code::Misplaced, part.here(), &[&behind, &right]);
         part.skip_all();
         return None;
     }
@@ -138,7 +143,7 @@ fn parameter(part: &mut Cursor, sink: &mut Diagnostics) -> Option<(Field, Expr)>
     Some((field, value))
 }
 
-/// What stands behind a value as its unit would in a text: `1 "kg"`, `9.81 m/s^2`.
+/// What stands behind a value as its unit would in a text, `1 "kg"`, `9.81 m/s^2`, or its domain, `1 positive`.
 fn unit_behind(part: &Cursor) -> Option<String> {
     let unit = match part.peek()? {
         TokenTree::Literal(literal) => syn::parse_str::<syn::LitStr>(&literal.to_string())
