@@ -33,6 +33,7 @@ pub(crate) use output_mask::products;
 pub use output_mask::{OutputMask, add_branch_guards, add_guards};
 pub(crate) use packets::Packets;
 pub use projection::Residual;
+pub(crate) use projection::rounding_of_residuals;
 pub(crate) use slip_direction::approach;
 
 use crate::arithmetic::Scalar;
@@ -446,6 +447,14 @@ impl<T: Scalar> Dynamics<T> {
     #[doc(hidden)]
     pub fn motion(&self, place: ValueRef) -> T {
         place.read(&self.compiled().constants, &self.nodes)
+    }
+
+    /// Σ |∂g/∂qⱼ| size(j) of a row, from the numbers of the last [`Self::value`]: what it changes by at most when each coordinate changes by its
+    /// size, or its rate when each velocity does.
+    pub(crate) fn size_of_row(&self, row: usize, size: impl Fn(usize) -> f64) -> f64 {
+        let terms = self.description().rows[row].jacobian.iter();
+        let terms = terms.map(|&(j, place)| self.motion(place).value().abs() * size(j));
+        terms.sum()
     }
 
     /// A number of the report at the last [`Self::report_value`]. Its need must have been held.

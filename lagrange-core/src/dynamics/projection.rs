@@ -16,12 +16,12 @@ use crate::linear::{Inertia, Shares};
 use crate::system::{Row, ValueRef};
 
 /// Residuals are rounding below this share of the terms that they cancel from.
-fn rounding<T: Scalar>() -> f64 {
+pub(crate) fn rounding_of_residuals<T: Scalar>() -> f64 {
     16.0 * epsilon::<T>()
 }
 
 /// A step's result is moved onto its constraints from this residual on. Between two projections a residual does work, and
-/// a state just below [`rounding`] would be left to do it for tens of steps: with 4 instead of 16 units the energy of a
+/// a state just below [`rounding_of_residuals`] would be left to do it for tens of steps: with 4 instead of 16 units the energy of a
 /// pendulum keeps a digit more, and still only one step in twenty needs a projection.
 fn tolerated<T: Scalar>() -> f64 {
     4.0 * epsilon::<T>()
@@ -107,7 +107,7 @@ impl<T: Scalar> Dynamics<T> {
         if moved {
             if given && !displaced && residual.relative > least && self.take_velocity_changes() {
                 residual = self.change_velocities(v);
-                least = rounding::<T>();
+                least = rounding_of_residuals::<T>();
             }
             self.move_velocities(v, &[], residual, least)?;
         }
@@ -179,8 +179,8 @@ impl<T: Scalar> Dynamics<T> {
         held_positions: &[bool],
         held_velocities: &[bool],
     ) -> Result<(), EvaluationError> {
-        self.move_positions(t, q, v, held_positions, rounding::<T>())?;
-        self.project_velocities(t, q, v, held_velocities)?;
+        self.move_positions(t, q, v, held_positions, rounding_of_residuals::<T>())?;
+        self.project_velocities(t, q, v, held_velocities, rounding_of_residuals::<T>())?;
         if T::DERIVATIVES > 0 {
             self.move_derivatives(t, q, v, [held_positions, held_velocities]);
         }
@@ -208,7 +208,7 @@ impl<T: Scalar> Dynamics<T> {
             }
             let before = residual.relative;
             // Shorter steps do not help against rounding.
-            let trials = if before <= rounding::<T>() {
+            let trials = if before <= rounding_of_residuals::<T>() {
                 1
             } else {
                 MOST_HALVINGS
@@ -235,12 +235,13 @@ impl<T: Scalar> Dynamics<T> {
                 residual = self.residual(Level::Position, q);
                 break;
             }
-            least = rounding::<T>();
+            least = rounding_of_residuals::<T>();
         }
         accept::<T>(residual)
     }
 
-    /// Least change of v in the mass metric that makes ġ = 0.
+    /// Least change of v in the mass metric that makes ġ = 0, where a relative residual is above `least`: [`rounding_of_residuals`] as a rule, 0
+    /// also where residuals are rounding beside a velocity of 1, of which a coordinate that a row hardly moves would keep many times that.
     ///
     /// # Errors
     /// [`EvaluationError::Projection`] if what is free cannot satisfy a row.
@@ -250,26 +251,11 @@ impl<T: Scalar> Dynamics<T> {
         q: &[T],
         v: &mut [T],
         held: &[bool],
+        least: f64,
     ) -> Result<(), EvaluationError> {
         self.run_rows(t, q, v);
         let residual = self.residual(Level::Velocity, v);
-        self.move_velocities(v, held, residual, rounding::<T>())
-    }
-
-    /// [`Self::project_velocities`] without held ones, also where residuals are rounding beside a velocity of 1: a coordinate that a row hardly
-    /// moves would keep many times that.
-    ///
-    /// # Errors
-    /// The same.
-    pub(crate) fn project_small_velocities(
-        &mut self,
-        t: T,
-        q: &[T],
-        v: &mut [T],
-    ) -> Result<(), EvaluationError> {
-        self.run_rows(t, q, v);
-        let residual = self.residual(Level::Velocity, v);
-        self.move_velocities(v, &[], residual, 0.0)
+        self.move_velocities(v, held, residual, least)
     }
 
     /// [`Self::project_velocities`] from velocities of this `residual`, where it is above `least`. The motion program was run at (q, v),
@@ -287,7 +273,7 @@ impl<T: Scalar> Dynamics<T> {
                 break;
             }
             residual = self.change_velocities(v);
-            least = rounding::<T>();
+            least = rounding_of_residuals::<T>();
         }
         accept::<T>(residual)
     }

@@ -236,14 +236,12 @@ impl<T: Scalar> View<'_, T> {
 
     /// The sum of the terms of a row for coordinates or velocities of their size, or of that below which errors are absolute.
     fn sum(&self, row: usize, size: impl Fn(usize) -> f64) -> f64 {
-        let terms = self.dynamics.description().rows[row].jacobian.iter();
         let least = |j: usize| match self.sizes {
             [] => 1.0,
             _ => self.least * least_size(self.sizes, j),
         };
         let size = |j: usize| size(j).max(least(j));
-        let terms = terms.map(|&(j, place)| self.number(place).abs() * size(j));
-        terms.sum()
+        self.dynamics.size_of_row(row, size)
     }
 }
 

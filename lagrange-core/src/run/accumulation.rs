@@ -311,11 +311,9 @@ impl<T: Scalar> Run<T> {
 
     /// What rounding makes of the gap of contact `c`.
     pub(super) fn rounding_of_gap(&self, c: usize) -> f64 {
-        let d = self.description();
-        let number = |place| self.dynamics.motion(place).value();
-        let terms = d.rows[d.contacts[c].row].jacobian.iter();
-        let sizes = terms.map(|&(j, place)| number(place) * self.now.state.q[j].value());
-        rounding::<T>(ROUNDING) * sizes.map(f64::abs).sum::<f64>()
+        let row = self.description().contacts[c].row;
+        let size = |j: usize| self.now.state.q[j].value().abs();
+        rounding::<T>(ROUNDING) * self.dynamics.size_of_row(row, size)
     }
 
     /// Whether the gap of contact `c` is below the tolerance.

@@ -9,12 +9,11 @@ use super::Run;
 use super::instant::derivatives;
 use super::stepping::{JUST_BEFORE, Stepper};
 use crate::arithmetic::Scalar;
-use crate::dynamics::approach;
+use crate::dynamics::{approach, rounding_of_residuals};
 use crate::error::Error;
 use crate::mode::{Direction, FrictionMode, Sliding};
 use crate::modes::exact;
 use crate::modes::guard::{self, Guard};
-use crate::system::ValueRef;
 use crate::trajectory::State;
 
 /// What may still change until rest, in units of the tolerance.
@@ -192,12 +191,11 @@ impl<T: Scalar> Run<T> {
     fn error_of_direction(&self, f: usize) -> f64 {
         let row = self.description().frictions[f].row;
         let error = |row: usize| {
-            let terms = self.description().rows[row].jacobian.iter();
-            let error = |&(j, place): &(usize, ValueRef)| {
+            let allowed = |j: usize| {
                 let size = self.now.state.v[j].value().abs();
-                self.dynamics.motion(place).value().abs() * self.settings.allowed(j, size)
+                self.settings.allowed(j, size)
             };
-            terms.map(error).sum::<f64>()
+            self.dynamics.size_of_row(row, allowed)
         };
         let slip = self.dynamics.slip(f).map(|s| s.value());
         error(row).hypot(error(row + 1)) / slip[0].hypot(slip[1])
@@ -234,9 +232,13 @@ impl<T: Scalar> Run<T> {
         let State { q, v, .. } = &self.now.state;
         let stopped = &mut self.locator.earlier;
         stopped.copy_from_slice(v);
-        let projected = self
-            .dynamics
-            .project_velocities(self.now.t, q, stopped, &[]);
+        let projected = self.dynamics.project_velocities(
+            self.now.t,
+            q,
+            stopped,
+            &[],
+            rounding_of_residuals::<T>(),
+        );
         let mut changes = v.iter().zip(&*stopped).enumerate();
         projected.is_ok()
             && changes.all(|(i, (now, stopped))| {
@@ -430,12 +432,8 @@ impl<T: Scalar> Run<T> {
         (0..self.now.mode.frictions.len()).any(|f| {
             let row = self.description().frictions[f].row;
             let falls = |row: usize| {
-                let terms = self.description().rows[row].jacobian.iter();
-                let size = |&(j, place)| {
-                    let term = self.dynamics.motion(place) * self.dynamics.acceleration()[j];
-                    term.value().abs()
-                };
-                terms.map(size).sum::<f64>()
+                let change = |j: usize| self.dynamics.acceleration()[j].value().abs();
+                self.dynamics.size_of_row(row, change)
             };
             self.turns(f) && {
                 let slip = self.dynamics.slip(f).map(|s| s.value());

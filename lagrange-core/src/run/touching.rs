@@ -5,7 +5,6 @@ use crate::arithmetic::{Scalar, rounding};
 use crate::effects::Item;
 use crate::modes::facts::SwitchFacts;
 use crate::modes::guard::Guard;
-use crate::system::ValueRef;
 
 /// A body that is closed at some points may be off by so many times more at others.
 const LEVER: f64 = 4.0;
@@ -71,15 +70,9 @@ impl<T: Scalar> Run<T> {
 
     /// What the gap of contact `c` changes by when each coordinate x changes by 1, or |x| if that is more; `dynamics` holds the numbers of its row.
     fn extent(&self, c: usize) -> f64 {
-        let description = self.description();
-        let terms = description.rows[description.contacts[c].row]
-            .jacobian
-            .iter();
-        let change = |&(j, place): &(usize, ValueRef)| {
-            let size = self.now.state.q[j].value().abs().max(1.0);
-            self.dynamics.motion(place).value().abs() * size
-        };
-        terms.map(change).sum()
+        let row = self.description().contacts[c].row;
+        let size = |j: usize| self.now.state.q[j].value().abs().max(1.0);
+        self.dynamics.size_of_row(row, size)
     }
 
     /// Takes down how large the gaps are; `dynamics` holds the numbers of all rows.

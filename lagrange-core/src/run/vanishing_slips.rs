@@ -147,7 +147,7 @@ impl<T: Scalar> Run<T> {
     fn hold_all_rows(&mut self) -> Result<(), Error> {
         self.project(true)?;
         let State { q, v, .. } = &mut self.now.state;
-        let held = self.dynamics.project_small_velocities(self.now.t, q, v);
+        let held = self.dynamics.project_velocities(self.now.t, q, v, &[], 0.0);
         held.map_err(|e| self.error(e))?;
         self.evaluate_all_rows()
     }
@@ -170,11 +170,9 @@ impl<T: Scalar> Run<T> {
     /// Rate of a row (slip, rate of a gap) and the size of the terms that make it; a velocity that is zero is so only to some
     /// 1e-16 of the unit, as projections leave it.
     pub(super) fn rate(&self, row: usize) -> (f64, f64) {
-        let row = &self.description().rows[row];
-        let number = |place| self.dynamics.motion(place).value();
+        let rate = self.description().rows[row].velocity;
         let size = |j: usize| self.now.state.v[j].value().abs() + AT_REST;
-        let terms = row.jacobian.iter();
-        let sizes = terms.map(|&(j, place)| number(place).abs() * size(j));
-        (number(row.velocity), sizes.sum())
+        let size = self.dynamics.size_of_row(row, size);
+        (self.dynamics.motion(rate).value(), size)
     }
 }

@@ -404,11 +404,10 @@ fn begin<T: Scalar>(
 fn size_of<T: Scalar>(dynamics: &Dynamics<T>, f: usize) -> f64 {
     let d = dynamics.description();
     let row = d.frictions[f].row;
-    let terms = d.rows[row..row + 2].iter().map(|row| {
-        let products = row.jacobian.iter();
-        let products = products
-            .map(|&(j, place)| (dynamics.motion(place) * dynamics.acceleration()[j]).value());
-        products.map(f64::abs).sum::<f64>() + dynamics.motion(row.bias).value().abs()
+    let terms = (row..row + 2).map(|row| {
+        let size = |j: usize| dynamics.acceleration()[j].value().abs();
+        let bias = dynamics.motion(d.rows[row].bias).value().abs();
+        dynamics.size_of_row(row, size) + bias
     });
     terms.sum()
 }
