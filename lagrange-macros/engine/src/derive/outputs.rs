@@ -64,46 +64,44 @@ fn watches(
     watches
 }
 
-/// The branches; to be called last, when all outputs that may contain them are known.
-///
-/// Users are the needs of the terms that contain a branch, be it inside the guard of another branch. A branch of an energy has that energy
-/// among its users even where equations of motion do not contain it, as the step of a potential: the energy may not jump.
-pub(super) fn branches(sheet: &mut Sheet) -> Vec<Branch<OutputId>> {
-    let count = sheet.system.branches.len();
-    let declared: Vec<ExprId> = sheet.system.branches.iter().map(|b| b.guard).collect();
-    let guards: Vec<ExprId> = declared
-        .into_iter()
-        .map(|guard| sheet.reported(guard))
-        .collect();
-    let pool = &sheet.system.pool;
-    let inside: Vec<Vec<usize>> = guards.iter().map(|&guard| pool.branches(guard)).collect();
-
-    let mut users: Vec<SortedSet<NeedId>> = vec![SortedSet::new(); count];
-    for (need, term) in sheet.outputs.iter().flat_map(|o| &o.terms) {
-        for branch in pool.branches(*term) {
-            users[branch].insert(*need);
-        }
-    }
+/// Needs of the terms that contain each branch, be it of an output or of an energy.
+fn users(sheet: &Sheet, count: usize) -> Vec<SortedSet<NeedId>> {
     let (system, needs) = (&sheet.system, &sheet.needs);
+    let outputs = sheet.outputs.iter().flat_map(|o| o.terms.iter().copied());
     let kinetic = system.kinetic.iter().zip(&needs.kinetic);
     let potential = system.potential.iter().zip(&needs.potential);
-    for (term, need) in kinetic.chain(potential) {
-        for branch in pool.branches(term.energy) {
-            users[branch].insert(*need);
+    let energies = kinetic.chain(potential);
+    let energies = energies.map(|(term, &need)| (need, term.energy));
+    let mut users: Vec<SortedSet<NeedId>> = vec![SortedSet::new(); count];
+    for (need, term) in outputs.chain(energies) {
+        for branch in system.pool.branches(term) {
+            users[branch].insert(need);
         }
     }
-    let results: SortedSet<Symbol> = sheet
-        .system
-        .multipliers()
-        .into_iter()
-        .chain(sheet.system.coordinates.iter().map(|c| c.acceleration))
-        .collect();
-    let mut after_solve: Vec<bool> = guards
-        .iter()
-        .map(|&guard| pool.symbols(guard).iter().any(|s| results.contains(s)))
-        .collect();
+    users
+}
+
+/// Whether each guard contains what is known only after the solve.
+fn after_solve(sheet: &Sheet, guards: &[ExprId]) -> Vec<bool> {
+    let system = &sheet.system;
+    let accelerations = system.coordinates.iter().map(|c| c.acceleration);
+    let results = system.multipliers().into_iter().chain(accelerations);
+    let results: SortedSet<Symbol> = results.collect();
+    let guards = guards.iter();
+    guards
+        .map(|&guard| {
+            let symbols = system.pool.symbols(guard);
+            symbols.iter().any(|s| results.contains(s))
+        })
+        .collect()
+}
+
+/// Hands the users of a guard on to the branches inside it, and to the guard that one of them is known only after the solve.
+fn hand_inward(inside: &[Vec<usize>], users: &mut [SortedSet<NeedId>], after_solve: &mut [bool]) {
     // Guards nest without cycles, so this ends; a guard contains branches that were made before it, as a rule.
-    let nested: Vec<usize> = (0..count).filter(|&i| !inside[i].is_empty()).collect();
+    let nested: Vec<usize> = (0..inside.len())
+        .filter(|&i| !inside[i].is_empty())
+        .collect();
     let mut changed = true;
     while changed {
         changed = false;
@@ -121,6 +119,24 @@ pub(super) fn branches(sheet: &mut Sheet) -> Vec<Branch<OutputId>> {
             after_solve[outer] |= late;
         }
     }
+}
+
+/// The branches; to be called last, when all outputs that may contain them are known.
+///
+/// Users are the needs of the terms that contain a branch, be it inside the guard of another branch. A branch of an energy has that energy
+/// among its users even where equations of motion do not contain it, as the step of a potential: the energy may not jump.
+pub(super) fn branches(sheet: &mut Sheet) -> Vec<Branch<OutputId>> {
+    let count = sheet.system.branches.len();
+    let declared: Vec<ExprId> = sheet.system.branches.iter().map(|b| b.guard).collect();
+    let guards: Vec<ExprId> = declared
+        .into_iter()
+        .map(|guard| sheet.reported(guard))
+        .collect();
+    let pool = &sheet.system.pool;
+    let inside: Vec<Vec<usize>> = guards.iter().map(|&guard| pool.branches(guard)).collect();
+    let mut users = users(sheet, count);
+    let mut after_solve = after_solve(sheet, &guards);
+    hand_inward(&inside, &mut users, &mut after_solve);
     let mut branches = Vec::new();
     for (i, users) in users.into_iter().enumerate() {
         let need = sheet.needs.branches[i];

@@ -5,7 +5,9 @@
 
 use super::exact::Exact;
 use super::names::{self, index};
-use crate::model::{Declared, Draw, Normal, Restitution, System, Turn, Watch, Worked};
+use crate::model::{
+    Contact, Declared, Draw, Force, Friction, Normal, Restitution, System, Turn, Watch, Worked,
+};
 use crate::sorted::{SortedMap, SortedSet};
 use crate::symbolic::{ExprId, Function, Node, Rational, Symbol};
 use proc_macro2::{Literal, TokenStream};
@@ -33,81 +35,15 @@ pub fn declaration(declared: &Declared, system: &System) -> TokenStream {
     let mut writer = Writer::new(declared);
     writer.write(&roots(of));
     writer.write(&drawn_roots(of));
-    let value = |e: &ExprId| index(writer.values[e]);
-    let option = |e: &Option<ExprId>| match e {
-        Some(e) => {
-            let value = value(e);
-            quote!(Some(#value))
-        }
-        None => quote!(None),
-    };
-    let kinetic = of.kinetic.iter().map(|term| value(&term.energy));
-    let potential = of.potential.iter().map(|term| value(&term.energy));
-    let constraints = of.constraints.iter().map(|c| value(&c.residual));
-    let contacts = of.contacts.iter().map(|contact| {
-        let (gap, region) = (value(&contact.gap), option(&contact.region));
-        let factor = option(&contact.normal_factor);
-        let (Restitution::Newton(e) | Restitution::Poisson(e)) = contact.restitution;
-        let restitution = value(&e);
-        quote! {
-            #core::__private::declaration::Contact {
-                gap: #gap, normal_factor: #factor, restitution: #restitution, region: #region,
-            }
-        }
-    });
-    let frictions = of.frictions.iter().map(|friction| {
-        let slip = friction.slip.iter().map(|(slip, _)| value(slip));
-        let normal = match friction.normal {
-            Normal::Given(e) => Some(e),
-            _ => None,
-        };
-        let normal = option(&normal);
-        let stick = value(&friction.static_coefficient);
-        let slide = value(&friction.kinetic_coefficient);
-        quote! {
-            #core::__private::declaration::Friction {
-                slip: &[#(#slip),*], normal: #normal, static_coefficient: #stick, kinetic_coefficient: #slide,
-            }
-        }
-    });
-    let forces = of.forces.iter().map(|force| {
-        let components = force.components.iter().map(|(f, worked)| {
-            let f = value(f);
-            let worked = match worked {
-                Worked::Coordinate(j) => {
-                    let j = index(*j);
-                    quote!(Coordinate(#j))
-                }
-                Worked::Point(p) => {
-                    let p = value(p);
-                    quote!(Point(#p))
-                }
-                Worked::Speed(s) => {
-                    let s = value(s);
-                    quote!(Speed(#s))
-                }
-            };
-            quote!((#f, #core::__private::declaration::Worked::#worked))
-        });
-        let reported = value(&force.value);
-        quote!(#core::__private::declaration::Force { value: #reported, components: &[#(#components),*] })
-    });
-    let dissipations = of.dissipations.iter().map(|d| value(&d.rayleigh));
-    let watches = |all: &[Watch], known: &[Watch]| -> Vec<TokenStream> {
-        let same = |watch: &Watch| known.iter().find(|k| k.name.text == watch.name.text);
-        let terms = all.iter().map(|watch| match same(watch) {
-            Some(known) => {
-                let terms = known.terms.iter().map(value);
-                quote!(Some(&[#(#terms),*]))
-            }
-            None => quote!(None),
-        });
-        terms.collect()
-    };
-    let (stops, marks) = (
-        watches(&system.stops, &of.stops),
-        watches(&system.marks, &of.marks),
-    );
+    let kinetic = of.kinetic.iter().map(|term| writer.value(term.energy));
+    let potential = of.potential.iter().map(|term| writer.value(term.energy));
+    let constraints = of.constraints.iter().map(|c| writer.value(c.residual));
+    let contacts = of.contacts.iter().map(|c| contact(c, core, &writer));
+    let frictions = of.frictions.iter().map(|f| friction(f, core, &writer));
+    let forces = of.forces.iter().map(|f| force(f, core, &writer));
+    let dissipations = of.dissipations.iter().map(|d| writer.value(d.rayleigh));
+    let stops = watches(&system.stops, &of.stops, &writer);
+    let marks = watches(&system.marks, &of.marks, &writer);
     let draws = of.draws.iter().map(|draw| drawn(draw, core, &writer));
     let words = Literal::byte_string(&writer.bytes);
     let numbers = writer.numbers.table();
@@ -129,10 +65,68 @@ pub fn declaration(declared: &Declared, system: &System) -> TokenStream {
     }
 }
 
+/// `Contact { … }`
+fn contact(contact: &Contact, core: &TokenStream, writer: &Writer) -> TokenStream {
+    let gap = writer.value(contact.gap);
+    let region = writer.option(contact.region);
+    let factor = writer.option(contact.normal_factor);
+    let (Restitution::Newton(e) | Restitution::Poisson(e)) = contact.restitution;
+    let restitution = writer.value(e);
+    quote! {
+        #core::__private::declaration::Contact {
+            gap: #gap, normal_factor: #factor, restitution: #restitution, region: #region,
+        }
+    }
+}
+
+/// `Friction { … }`
+fn friction(friction: &Friction, core: &TokenStream, writer: &Writer) -> TokenStream {
+    let slip = friction.slip.iter().map(|(slip, _)| writer.value(*slip));
+    let normal = writer.option(match friction.normal {
+        Normal::Given(e) => Some(e),
+        _ => None,
+    });
+    let stick = writer.value(friction.static_coefficient);
+    let slide = writer.value(friction.kinetic_coefficient);
+    quote! {
+        #core::__private::declaration::Friction {
+            slip: &[#(#slip),*], normal: #normal, static_coefficient: #stick, kinetic_coefficient: #slide,
+        }
+    }
+}
+
+/// `Force { … }`
+fn force(force: &Force, core: &TokenStream, writer: &Writer) -> TokenStream {
+    let components = force.components.iter().map(|(f, worked)| {
+        let f = writer.value(*f);
+        let (along, value) = match worked {
+            Worked::Coordinate(j) => (quote!(Coordinate), index(*j)),
+            Worked::Point(p) => (quote!(Point), writer.value(*p)),
+            Worked::Speed(s) => (quote!(Speed), writer.value(*s)),
+        };
+        quote!((#f, #core::__private::declaration::Worked::#along(#value)))
+    });
+    let reported = writer.value(force.value);
+    quote!(#core::__private::declaration::Force { value: #reported, components: &[#(#components),*] })
+}
+
+/// The terms of those stops or marks that are `known` by their names.
+fn watches(all: &[Watch], known: &[Watch], writer: &Writer) -> Vec<TokenStream> {
+    let same = |watch: &Watch| known.iter().find(|k| k.name.text == watch.name.text);
+    let terms = all.iter().map(|watch| match same(watch) {
+        Some(known) => {
+            let terms = known.terms.iter().map(|e| writer.value(*e));
+            quote!(Some(&[#(#terms),*]))
+        }
+        None => quote!(None),
+    });
+    terms.collect()
+}
+
 /// `Draw { … }`
 fn drawn(draw: &Draw, core: &TokenStream, writer: &Writer) -> TokenStream {
     let values = |all: &[ExprId]| {
-        let all = all.iter().map(|e| index(writer.values[e]));
+        let all = all.iter().map(|e| writer.value(*e));
         quote!(&[#(#all),*])
     };
     let form = names::plain(&format!("{:?}", draw.form));
@@ -142,7 +136,7 @@ fn drawn(draw: &Draw, core: &TokenStream, writer: &Writer) -> TokenStream {
     let turn = match &draw.turn {
         Turn::None => quote!(None),
         Turn::Angle(angle) => {
-            let angle = index(writer.values[angle]);
+            let angle = writer.value(*angle);
             quote!(Angle(#angle))
         }
         Turn::Attitude(first) => {
@@ -267,6 +261,19 @@ impl<'a> Writer<'a> {
             count: 0,
             bytes: Vec::new(),
             numbers: Exact::default(),
+        }
+    }
+
+    /// Where the value of an expression is, once it has been written.
+    fn value(&self, e: ExprId) -> Literal {
+        index(self.values[&e])
+    }
+
+    /// The same, where there may be none.
+    fn option(&self, e: Option<ExprId>) -> TokenStream {
+        match e.map(|e| self.value(e)) {
+            Some(value) => quote!(Some(#value)),
+            None => quote!(None),
         }
     }
 

@@ -39,26 +39,7 @@ pub fn file(text: &str, name: &str, sink: &mut Diagnostics) -> Option<File> {
         sink.report(Code::FileSize, Span::call_site(), &[&LARGEST]);
         return None;
     }
-    let tokens: TokenStream = match text.parse() {
-        Ok(tokens) => tokens,
-        Err(error) => {
-            let at = |error: &LexError| {
-                let begin = error.span().byte_range().start;
-                text.split_at_checked(begin).unwrap_or_default()
-            };
-            let error = match at(&error).1.starts_with('"') {
-                true => unclosed(text).unwrap_or(error),
-                false => error,
-            };
-            let (before, rest) = at(&error);
-            let hint = match rest.starts_with('\'') && is_quoted(before) {
-                true => SINGLE_QUOTES.to_owned(),
-                false => unreadable(rest),
-            };
-            sink.report(Code::Unreadable, error.span(), &[&hint]);
-            return None;
-        }
-    };
+    let tokens = tokens(text, sink)?;
     shallow(&tokens, sink)?;
     let begin = tokens.clone().into_iter().next();
     let begin = begin.map_or(Span::call_site(), |token| token.span());
@@ -109,6 +90,29 @@ pub fn file(text: &str, name: &str, sink: &mut Diagnostics) -> Option<File> {
         items,
     };
     (sink.count() == before).then_some(file)
+}
+
+/// The tokens of the text, if it is made of tokens.
+fn tokens(text: &str, sink: &mut Diagnostics) -> Option<TokenStream> {
+    let error = match text.parse() {
+        Ok(tokens) => return Some(tokens),
+        Err(error) => error,
+    };
+    let at = |error: &LexError| {
+        let begin = error.span().byte_range().start;
+        text.split_at_checked(begin).unwrap_or_default()
+    };
+    let error = match at(&error).1.starts_with('"') {
+        true => unclosed(text).unwrap_or(error),
+        false => error,
+    };
+    let (before, rest) = at(&error);
+    let hint = match rest.starts_with('\'') && is_quoted(before) {
+        true => SINGLE_QUOTES.to_owned(),
+        false => unreadable(rest),
+    };
+    sink.report(Code::Unreadable, error.span(), &[&hint]);
+    None
 }
 
 /// The error at the first quotation mark that is not closed: the line ends, or a comma or `=` follows, which no unit has. Where marks are
