@@ -116,33 +116,13 @@ fn measure(
     let choices: Vec<Effects> = core::iter::once(effects.clone()).chain(without).collect();
     let mut sides: Vec<Vec<Option<(RightSide, Cost)>>> = choices
         .iter()
-        .map(|chosen| {
-            let sides = places.iter();
-            let sides = sides.map(|place| {
-                let mut side = RightSide::new(system, chosen, place)?;
-                let cost = Cost {
-                    operations: side.operations(),
-                    nanoseconds: f64::INFINITY,
-                };
-                Some((side, cost))
-            });
-            sides.collect()
-        })
+        .map(|chosen| right_sides(system, chosen, &places))
         .collect();
     let mut runs: Vec<Result<WholeRun<'_>, Error>> = choices
         .into_iter()
         .map(|chosen| WholeRun::new(simulation.clone().effects(chosen), start, until))
         .collect();
-    progress.expect(ROUNDS);
-    for _ in 0..ROUNDS {
-        for (side, cost) in sides.iter_mut().flatten().flatten() {
-            let each = side.chain(CALLS).as_secs_f64() * 1e9 / CALLS as f64;
-            cost.nanoseconds = cost.nanoseconds.min(each);
-        }
-        let runs = runs.iter_mut().flatten();
-        runs.for_each(WholeRun::time);
-        progress.advance(1);
-    }
+    time(&mut sides, &mut runs, progress);
     let mut costs = sides.into_iter().map(|sides| -> Vec<Option<Cost>> {
         let cost = |side: Option<(RightSide, Cost)>| side.map(|(_, cost)| cost);
         sides.into_iter().map(cost).collect()
@@ -167,6 +147,41 @@ fn measure(
         effects: items.into_iter().zip(costs.zip(runs)).map(effect).collect(),
         run,
     })
+}
+
+/// The equations of motion with these effects, in the mode of each place; none where they cannot be evaluated.
+fn right_sides(
+    system: &AnySystem<f64>,
+    chosen: &Effects,
+    places: &[Place],
+) -> Vec<Option<(RightSide, Cost)>> {
+    let sides = places.iter().map(|place| {
+        let mut side = RightSide::new(system, chosen, place)?;
+        let cost = Cost {
+            operations: side.operations(),
+            nanoseconds: f64::INFINITY,
+        };
+        Some((side, cost))
+    });
+    sides.collect()
+}
+
+/// Times all of them in turn, round by round: the shortest time of each counts.
+fn time(
+    sides: &mut [Vec<Option<(RightSide, Cost)>>],
+    runs: &mut [Result<WholeRun<'_>, Error>],
+    progress: &Progress,
+) {
+    progress.expect(ROUNDS);
+    for _ in 0..ROUNDS {
+        for (side, cost) in sides.iter_mut().flatten().flatten() {
+            let each = side.chain(CALLS).as_secs_f64() * 1e9 / CALLS as f64;
+            cost.nanoseconds = cost.nanoseconds.min(each);
+        }
+        let runs = runs.iter_mut().flatten();
+        runs.for_each(WholeRun::time);
+        progress.advance(1);
+    }
 }
 
 /// A run from start to end, again and again, without recording.

@@ -67,31 +67,8 @@ pub(super) fn marks(drawings: &[Drawing], frame: &Frame) -> Vec<Mark> {
                 numbers: (0..width).map(column).collect(),
             });
         };
-        let points = |shape: &Shape| match shape {
-            Shape::Fixed(points)
-            | Shape::Block(points)
-            | Shape::Rod(points)
-            | Shape::Rope(points) => points
-                .iter()
-                .flat_map(|[x, y]| [frame.x(*x), frame.y(*y)])
-                .collect(),
-            _ => Vec::new(),
-        };
-        let circle = |shape: &Shape| match shape {
-            Shape::Shell([x, y], r) | Shape::Bowl([x, y], r) | Shape::Disc([x, y], r, _) => {
-                vec![frame.x(*x), frame.y(*y), r * frame.scale]
-            }
-            Shape::Mass([x, y]) => vec![frame.x(*x), frame.y(*y), dot],
-            Shape::Pivot([x, y]) => vec![frame.x(*x), frame.y(*y), 0.4 * BRACKET],
-            _ => Vec::new(),
-        };
-        let bracket = |shape: &Shape| match shape {
-            Shape::Pivot([x, y]) => {
-                let (x, y, half, top) = (frame.x(*x), frame.y(*y), BRACKET, 1.7 * BRACKET);
-                vec![x, y, x - half, y - top, x + half, y - top]
-            }
-            _ => Vec::new(),
-        };
+        let points = |shape: &Shape| points(shape, frame);
+        let circle = |shape: &Shape| circle(shape, dot, frame);
         match shape {
             Shape::Floor(_) => add("ground", Form::Ground, &|shape| match shape {
                 Shape::Floor(y) => vec![frame.y(*y)],
@@ -106,15 +83,7 @@ pub(super) fn marks(drawings: &[Drawing], frame: &Frame) -> Vec<Mark> {
             Shape::Mass(_) => add("point", Form::Circle, &circle),
             Shape::Disc(..) => {
                 add("body", Form::Circle, &circle);
-                add("rod", spoke(), &|shape| match shape {
-                    Shape::Disc([x, y], r, angle) => vec![
-                        frame.x(*x),
-                        frame.y(*y),
-                        -angle.to_degrees() - 90.0,
-                        r * frame.scale,
-                    ],
-                    _ => Vec::new(),
-                });
+                add("rod", spoke(), &|shape| radius(shape, frame));
             }
             Shape::Spring(..) => {
                 let before = Cell::new(0.0);
@@ -123,21 +92,16 @@ pub(super) fn marks(drawings: &[Drawing], frame: &Frame) -> Vec<Mark> {
                     _ => 0.0,
                 });
                 let longest = lengths.fold(0.0, f64::max);
-                add("rod", spring(frame, longest), &|shape| match shape {
-                    Shape::Spring([x1, y1], [x2, y2]) => {
-                        let (dx, dy) = (x2 - x1, y1 - y2);
-                        let angle = dy.atan2(dx).to_degrees();
-                        // The nearest of all that mean the same: a spring does not spin.
-                        let angle = angle + 360.0 * ((before.get() - angle) / 360.0_f64).round();
+                add("rod", spring(frame, longest), &|shape| {
+                    let numbers = stretched(shape, before.get(), frame);
+                    if let [_, _, angle, _] = numbers[..] {
                         before.set(angle);
-                        let length = dx.hypot(dy) * frame.scale;
-                        vec![frame.x(*x1), frame.y(*y1), angle, length]
                     }
-                    _ => Vec::new(),
+                    numbers
                 });
             }
             Shape::Pivot(_) => {
-                add("ground", Form::Polygon, &bracket);
+                add("ground", Form::Polygon, &|shape| bracket(shape, frame));
                 add("pivot", Form::Circle, &circle);
             }
             Shape::Trace(_) => add("trace", Form::Trace, &|shape| match shape {
@@ -147,6 +111,71 @@ pub(super) fn marks(drawings: &[Drawing], frame: &Frame) -> Vec<Mark> {
         }
     }
     marks
+}
+
+/// Corners.
+fn points(shape: &Shape, frame: &Frame) -> Vec<f64> {
+    match shape {
+        Shape::Fixed(points) | Shape::Block(points) | Shape::Rod(points) | Shape::Rope(points) => {
+            let points = points.iter();
+            points
+                .flat_map(|[x, y]| [frame.x(*x), frame.y(*y)])
+                .collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// Centre and radius; that of a mass is `dot`.
+fn circle(shape: &Shape, dot: f64, frame: &Frame) -> Vec<f64> {
+    match shape {
+        Shape::Shell([x, y], r) | Shape::Bowl([x, y], r) | Shape::Disc([x, y], r, _) => {
+            vec![frame.x(*x), frame.y(*y), r * frame.scale]
+        }
+        Shape::Mass([x, y]) => vec![frame.x(*x), frame.y(*y), dot],
+        Shape::Pivot([x, y]) => vec![frame.x(*x), frame.y(*y), 0.4 * BRACKET],
+        _ => Vec::new(),
+    }
+}
+
+/// What holds a pivot.
+fn bracket(shape: &Shape, frame: &Frame) -> Vec<f64> {
+    match shape {
+        Shape::Pivot([x, y]) => {
+            let (x, y, half, top) = (frame.x(*x), frame.y(*y), BRACKET, 1.7 * BRACKET);
+            vec![x, y, x - half, y - top, x + half, y - top]
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// Where a spoke begins, its angle and its length.
+fn radius(shape: &Shape, frame: &Frame) -> Vec<f64> {
+    match shape {
+        Shape::Disc([x, y], r, angle) => {
+            let angle = -angle.to_degrees() - 90.0;
+            vec![frame.x(*x), frame.y(*y), angle, r * frame.scale]
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// Where a spring begins, its angle and its length; of all angles that mean the same, the nearest to the one `before`: a spring does not spin.
+fn stretched(shape: &Shape, before: f64, frame: &Frame) -> Vec<f64> {
+    match shape {
+        Shape::Spring([x1, y1], [x2, y2]) => {
+            let (dx, dy) = (x2 - x1, y1 - y2);
+            let angle = dy.atan2(dx).to_degrees();
+            let angle = angle + 360.0 * ((before - angle) / 360.0_f64).round();
+            vec![
+                frame.x(*x1),
+                frame.y(*y1),
+                angle,
+                dx.hypot(dy) * frame.scale,
+            ]
+        }
+        _ => Vec::new(),
+    }
 }
 
 /// From the centre to the rim.
