@@ -61,7 +61,7 @@ impl Expansion<'_> {
         let time = Row::Value(Value(0));
         let first = self.store(time, quote!(0), quote!(#t));
         let second = self.store(time, quote!(1), quote!(#number::of(1.0)));
-        let fixed = self.plan.fixed().into_iter().map(|constant| {
+        let fixed = self.plan.fixed().map(|constant| {
             let value = self.writer.coefficient(Coefficient::Constant(constant));
             self.store(Row::Fixed(constant), quote!(0), value)
         });
