@@ -116,9 +116,9 @@ fn watches(all: &[Watch], known: &[Watch], writer: &Writer) -> Vec<TokenStream> 
     let terms = all.iter().map(|watch| match same(watch) {
         Some(known) => {
             let terms = known.terms.iter().map(|e| writer.value(*e));
-            quote!(Some(&[#(#terms),*]))
+            quote!(::core::option::Option::Some(&[#(#terms),*]))
         }
-        None => quote!(None),
+        None => quote!(::core::option::Option::None),
     });
     terms.collect()
 }
@@ -272,8 +272,8 @@ impl<'a> Writer<'a> {
     /// The same, where there may be none.
     fn option(&self, e: Option<ExprId>) -> TokenStream {
         match e.map(|e| self.value(e)) {
-            Some(value) => quote!(Some(#value)),
-            None => quote!(None),
+            Some(value) => quote!(::core::option::Option::Some(#value)),
+            None => quote!(::core::option::Option::None),
         }
     }
 

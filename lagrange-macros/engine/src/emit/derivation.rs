@@ -29,8 +29,7 @@ pub fn derivation(system: &System, derivation: &Derivation, declaration: &str) -
     );
     quote! {
         #[doc = #on_page]
-        #[automatically_derived]
-        #[allow(dead_code, clippy::all, clippy::pedantic)]
+        #[allow(dead_code, deprecated, clippy::all, clippy::pedantic)]
         impl #name #arguments {
             #[doc = #hover]
             pub fn derivation() -> &'static #core::Derivation {
@@ -58,8 +57,7 @@ pub fn on_request(system: &System, declaration: &str) -> TokenStream {
         system.coordinates.len()
     );
     quote! {
-        #[automatically_derived]
-        #[allow(dead_code)]
+        #[allow(dead_code, deprecated)]
         impl #name #arguments {
             #[doc = #text]
             pub fn derivation() -> &'static #core::Derivation {
@@ -77,8 +75,7 @@ pub fn on_request(system: &System, declaration: &str) -> TokenStream {
 /// The same where nothing was derived.
 pub fn nothing(target: TokenStream, core: &TokenStream) -> TokenStream {
     quote! {
-        #[automatically_derived]
-        #[allow(dead_code)]
+        #[allow(dead_code, deprecated)]
         impl #target {
             #[doc = "Not derived."]
             pub fn derivation() -> &'static #core::Derivation {

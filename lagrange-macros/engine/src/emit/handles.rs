@@ -89,8 +89,7 @@ pub(super) fn handle(
 /// `impl X { … }`
 pub(super) fn inherent(target: TokenStream, constants: &[TokenStream]) -> TokenStream {
     quote! {
-        #[automatically_derived]
-        #[allow(dead_code, non_upper_case_globals, clippy::all, clippy::pedantic)]
+        #[allow(dead_code, deprecated, non_upper_case_globals, clippy::all, clippy::pedantic)]
         impl #target {
             #(#constants)*
         }

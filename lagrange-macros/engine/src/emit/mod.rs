@@ -85,7 +85,7 @@ pub fn emit(program: &Program, declared: &Declared, verdicts: &[Verdict]) -> Tok
         #checks
 
         #[automatically_derived]
-        #[allow(unused, clippy::all, clippy::pedantic, clippy::nursery)]
+        #[allow(unused, deprecated, clippy::all, clippy::pedantic, clippy::nursery)]
         impl #generics #core::system::System for #name #arguments {
             type Scalar = #scalar;
             fn copy(&self) -> Self {
@@ -101,7 +101,7 @@ pub fn emit(program: &Program, declared: &Declared, verdicts: &[Verdict]) -> Tok
         }
 
         #[automatically_derived]
-        #[allow(unused, clippy::all, clippy::pedantic, clippy::nursery)]
+        #[allow(unused, deprecated, clippy::all, clippy::pedantic, clippy::nursery)]
         impl #generics #core::system::Derived for #name #arguments {
             const DESCRIPTION: &'static #core::system::Description = &#description;
             const DECLARATION: &'static #core::__private::declaration::Declaration = &#declaration;

@@ -110,6 +110,7 @@ impl<'a> Elaboration<'a> {
             coordinate_names: SortedMap::new(),
             bodies: SortedMap::new(),
             in_body_rates: false,
+            outputs: Vec::new(),
             dropped: false,
             overflowed: false,
             unrolled: 0,
@@ -125,6 +126,7 @@ impl<'a> Elaboration<'a> {
     /// Enters all names and reads the items of these passes.
     fn read_in(&mut self, declaration: &Declaration, passes: &[Pass]) {
         let accepted = self.declare(declaration);
+        self.check_single_items(declaration);
         self.check_energies(declaration);
         let items = || {
             declaration

@@ -36,6 +36,8 @@ pub(super) struct Elaboration<'a> {
     pub bodies: SortedMap<String, usize>,
     /// Whether the rates of those bodies are velocities, in place of those of their quaternions.
     pub in_body_rates: bool,
+    /// Names of the outputs so far.
+    pub outputs: Vec<String>,
     /// Whether something could not be read; the sink says why.
     pub dropped: bool,
     /// Whether an exact number that did not fit has been reported.
@@ -86,6 +88,7 @@ impl<'a> Elaboration<'a> {
             coordinate_names: scope.coordinate_names,
             bodies: scope.bodies,
             in_body_rates: false,
+            outputs: Vec::new(),
             dropped: false,
             unrolled: 0,
             home: scope.home,

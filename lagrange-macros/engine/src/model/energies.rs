@@ -14,20 +14,31 @@ const POTENTIAL: Context = Context::new(Reach::Positions, "a potential energy");
 const LAGRANGIAN: Context = Context::new(Reach::Motion, "a Lagrangian");
 
 impl Elaboration<'_> {
-    /// Either one Lagrangian, or kinetic energies.
-    pub fn check_energies(&mut self, declaration: &Declaration) {
-        let (mut lagrangian, mut kinetic) = (false, false);
+    /// What is said of a whole system is said once.
+    pub fn check_single_items(&mut self, declaration: &Declaration) {
+        let mut known = Vec::new();
         for item in &declaration.items {
-            match &item.kind {
-                ItemKind::Lagrangian(_) if lagrangian => {
-                    self.sink
-                        .report(Code::SameTwice, item.keyword, &[&"lagrangian"]);
-                }
-                ItemKind::Lagrangian(_) => lagrangian = true,
-                ItemKind::Kinetic(_) => kinetic = true,
-                _ => {}
+            let word = match &item.kind {
+                ItemKind::Lagrangian(_) => "lagrangian",
+                ItemKind::Impacts(_) => "impacts",
+                ItemKind::Emit(_) => "emit",
+                _ => continue,
+            };
+            if known.contains(&word) {
+                self.sink.report(Code::SameTwice, item.keyword, &[&word]);
             }
+            known.push(word);
         }
+    }
+
+    /// Either a Lagrangian, or kinetic energies.
+    pub fn check_energies(&mut self, declaration: &Declaration) {
+        let is_there = |kind: fn(&ItemKind) -> bool| {
+            let mut items = declaration.items.iter();
+            items.any(|item| kind(&item.kind))
+        };
+        let lagrangian = is_there(|kind| matches!(kind, ItemKind::Lagrangian(_)));
+        let kinetic = is_there(|kind| matches!(kind, ItemKind::Kinetic(_)));
         let [mut first_kinetic, mut first_potential] = [true, true];
         for item in &declaration.items {
             let (word, head, first) = match &item.kind {

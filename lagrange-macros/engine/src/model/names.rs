@@ -297,7 +297,7 @@ pub(crate) fn shouting(name: &str) -> String {
     constant
 }
 
-/// Whether a word cannot be a name.
+/// Whether a word cannot be a name. Nothing is called `_` in Rust.
 pub(super) fn is_reserved(word: &str) -> bool {
-    RESERVED.contains(&word) || FUNCTIONS.contains(&word)
+    word == "_" || RESERVED.contains(&word) || FUNCTIONS.contains(&word)
 }

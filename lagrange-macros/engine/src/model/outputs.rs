@@ -25,6 +25,11 @@ impl Elaboration<'_> {
 
     /// The value of a name becomes an output, a list one for each element.
     fn output(&mut self, name: &Name) -> Option<()> {
+        if self.outputs.contains(&name.text) {
+            self.sink.report(Code::SameTwice, name, &[&name.text]);
+            return None;
+        }
+        self.outputs.push(name.text.clone());
         let expr = Expr {
             kind: ExprKind::Name(name.clone()),
             extent: name.into(),

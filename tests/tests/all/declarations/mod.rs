@@ -1,5 +1,6 @@
 //! Random declarations through the engine and the core: whatever is declared, what is derived says the same, interpreted and compiled.
 
+mod bare;
 mod compiled;
 #[rustfmt::skip]
 mod written;
@@ -165,4 +166,25 @@ fn everything_in_the_language_is_drawn() {
         let mut words = texts.split(|c: char| !c.is_alphanumeric() && c != '_');
         assert!(words.any(|found| found == *word), "`{word}` is never drawn");
     }
+}
+
+/// What is emitted needs no name of its surroundings.
+#[test]
+#[allow(deprecated)]
+fn a_module_without_a_prelude_has_its_equations() {
+    let bare = bare::Bare {
+        mass: 2.0,
+        arm: 0.5,
+        gravity: 9.81,
+        stiffness: 100.0,
+        bounce: 0.5,
+        mu: 0.3,
+        strength: 0.0,
+    };
+    let run = Simulation::new(&bare)
+        .run(bare.at(bare::Bare::REST), 0.0..1.0)
+        .expect("falls");
+    let hits = lagrange_tests::event(&run, "floor", "impact").time;
+    // The arms hang straight down and take their weight with them.
+    lagrange_tests::agree("hits", hits, (2.0 * 0.5 / 9.81_f64).sqrt(), 1e-9);
 }

@@ -106,8 +106,8 @@ fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> To
         FrictionState::Slip(_) => quote!(Slip),
     });
     let left_out = match mode.mode.left_out.map(index) {
-        Some(constraint) => quote!(Some(#constraint)),
-        None => quote!(None),
+        Some(constraint) => quote!(::core::option::Option::Some(#constraint)),
+        None => quote!(::core::option::Option::None),
     };
     let system = &program.equations.system;
     let pins = mode.results.pins.iter().map(|&(j, place)| {

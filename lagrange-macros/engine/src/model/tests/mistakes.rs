@@ -15,6 +15,10 @@ fn mistakes_point_at_their_token() {
         ("contact(a: x >= 0)", "2:9 E202"),
         ("contact(sin: x >= 0)", "2:9 E203"),
         ("define(der = x)", "2:8 E203"),
+        ("contact(_: x >= 0)", "2:9 E203"),
+        ("observe(x, y, x)", "2:15 E510"),
+        ("emit = data, emit = loops", "2:14 E510"),
+        ("impacts = in_turn, impacts = together", "2:20 E510"),
         ("define(t = x)", "2:8 E203"),
         (
             "define(along = x), potential = a*along + along^2",
