@@ -15,6 +15,8 @@ use crate::system::{Normal, ValueRef};
 
 /// Coordinates of an attitude.
 const QUATERNION: usize = 4;
+/// Forces on one of them are measured with no more than so many times the mobility of the heaviest.
+const LIGHTEST: f64 = 1e3;
 /// One of them has no inertia if it has less than this share of the largest.
 const NO_INERTIA: f64 = 1e-24;
 
@@ -59,8 +61,8 @@ impl Sizes {
             }
         }
         self.take_followers(dynamics);
-        let forcing = self.mobility.iter().zip(d.forcing);
-        let forced = forcing.map(|(m, &f)| m.sqrt() * number(f));
+        let forcing = self.mobility.iter().zip(d.forcing).enumerate();
+        let forced = forcing.map(|(j, (m, &f))| m.min(self.most_moved(j)).sqrt() * number(f));
         self.forced = forced.fold(0.0, f64::hypot);
         self.take_rows(dynamics);
     }
@@ -197,6 +199,19 @@ impl Sizes {
         }
     }
 
+    /// The largest mobility that forces on coordinate `j` are measured with: what would change the length of a quaternion moves nothing, though the real part
+    /// of one near its unit has hardly any inertia.
+    fn most_moved(&self, j: usize) -> f64 {
+        let mut quaternions = self.quaternions.iter();
+        let of = quaternions.find(|[first, _]| j.wrapping_sub(*first) < QUATERNION);
+        let Some(&[first, _]) = of else {
+            return f64::INFINITY;
+        };
+        let turns = self.mobility[first..first + QUATERNION].iter();
+        let heaviest = turns.filter(|m| **m > 0.0);
+        LIGHTEST * heaviest.fold(f64::INFINITY, |least, m| m.min(least))
+    }
+
     fn is_of_attitude(&self, j: usize) -> bool {
         let mut quaternions = self.quaternions.iter();
         quaternions.any(|&[first, _]| j.wrapping_sub(first) < QUATERNION)
@@ -213,22 +228,9 @@ impl Sizes {
         let parts = parts.map(|&(j, place)| number(place).powi(2) * self.mobility[j]);
         let mut compliance: f64 = parts.sum();
         for &[first, length] in &self.quaternions {
-            let part = |row: usize| {
-                let mut part = [0.0; QUATERNION];
-                for &(j, place) in rows[row].jacobian {
-                    if let Some(x) = j.checked_sub(first).and_then(|k| part.get_mut(k)) {
-                        *x = number(place);
-                    }
-                }
-                part
-            };
-            let (turns, grows) = (part(row), part(length));
-            let dot = |a: [f64; QUATERNION], b: [f64; QUATERNION]| -> f64 {
-                a.iter().zip(b).map(|(a, b)| a * b).sum()
-            };
-            let share = dot(turns, grows) / dot(grows, grows).max(f64::MIN_POSITIVE);
-            for k in 0..QUATERNION {
-                let along = turns[k] - share * grows[k];
+            let own = part_of_quaternion(row, first, dynamics);
+            let turns = turning(length, first, own, dynamics);
+            for (k, along) in turns.into_iter().enumerate() {
                 compliance += along * along * self.mobility[first + k];
             }
         }
@@ -267,6 +269,36 @@ impl Sizes {
         let force = rows.map(|row| self.row(row, dynamics).force);
         force.fold(0.0, f64::max) + self.friction(f, friction.static_coefficient, dynamics)
     }
+}
+
+/// The part of a row's Jacobian that is of the quaternion with this `first` coordinate.
+fn part_of_quaternion<T: Scalar>(
+    row: usize,
+    first: usize,
+    dynamics: &Dynamics<T>,
+) -> [f64; QUATERNION] {
+    let mut part = [0.0; QUATERNION];
+    for &(j, place) in dynamics.description().rows[row].jacobian {
+        if let Some(x) = j.checked_sub(first).and_then(|k| part.get_mut(k)) {
+            *x = dynamics.motion(place).value();
+        }
+    }
+    part
+}
+
+/// What of forces on a quaternion turns the body: what would change its length, which a row keeps, is no part of it.
+fn turning<T: Scalar>(
+    length: usize,
+    first: usize,
+    forces: [f64; QUATERNION],
+    dynamics: &Dynamics<T>,
+) -> [f64; QUATERNION] {
+    let grows = part_of_quaternion(length, first, dynamics);
+    let dot = |a: [f64; QUATERNION], b: [f64; QUATERNION]| -> f64 {
+        a.iter().zip(b).map(|(a, b)| a * b).sum()
+    };
+    let share = dot(forces, grows) / dot(grows, grows).max(f64::MIN_POSITIVE);
+    [0, 1, 2, 3].map(|k| forces[k] - share * grows[k])
 }
 
 /// Size of what the force of each row that acts holds in balance in the equation that says it best: forcing, inertia and other forces; of a

@@ -11,6 +11,9 @@ use crate::linear::{Equilibrated, Rank, least_norm};
 use crate::mode::FrictionMode;
 use crate::system::{Normal, Restitution, ValueRef};
 
+/// A coordinate that by its own inertia would move so many times as far as what constraints tie it to has hardly any.
+const HARDLY: f64 = 1e3;
+
 /// What stands between coordinates and rows; the memory is reused.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Gathering<T> {
@@ -142,10 +145,26 @@ impl<T: Scalar> Gathering<T> {
             true => inertia(j).sqrt().recip(),
             false => 0.0,
         }));
-        let length = |scale: &[f64], k: usize| {
-            let parts = (0..n).map(|j| (b(k, j) * scale[j]).powi(2));
+        let length = |scale: &[f64], k: usize, except: usize| {
+            let others = (0..n).filter(|&j| j != except);
+            let parts = others.map(|j| (b(k, j) * scale[j]).powi(2));
             parts.sum::<f64>().sqrt()
         };
+        // What has hardly any inertia of its own moves as far as what it is tied to: the real part of a quaternion near its unit.
+        let own = match bilateral {
+            0 => Vec::new(),
+            _ => scale.clone(),
+        };
+        for (j, &own_scale) in own.iter().enumerate().filter(|(_, own)| **own > 0.0) {
+            let ties = (0..bilateral).filter(|&k| b(k, j) != 0.0);
+            let moves = ties.map(|k| length(&own, k, j) / b(k, j).abs());
+            let moves = moves.filter(|moves| *moves > 0.0);
+            let moves = moves.fold(f64::INFINITY, f64::min);
+            if own_scale > HARDLY * moves {
+                scale[j] = moves;
+            }
+        }
+        let length = |scale: &[f64], k: usize| length(scale, k, n);
         // What has no inertia of its own is measured by what constraints tie it to.
         let lengths: Vec<f64> = (0..bilateral).map(|k| length(scale, k)).collect();
         for j in (0..n).filter(|&j| inertia(j) == 0.0) {
