@@ -46,6 +46,34 @@ impl CompositeGuard {
         self.parts.len() == other.parts.len() && pairs.into_iter().all(alike)
     }
 
+    /// Whether it says only how much frictions can hold, either way: the force of each of them cancels by itself.
+    pub fn is_of_limits(&self) -> bool {
+        /// Forces that cancel leave this share of their weights.
+        const CANCELS: f64 = 1e-6;
+        let along = |part: &Part| match (part.guard, part.plane) {
+            (Guard::StickUpper(f), _) => Some((f, [1.0, 0.0])),
+            (Guard::StickLower(f), _) => Some((f, [-1.0, 0.0])),
+            (Guard::StickCone(f), Some(plane)) => Some((f, plane.along)),
+            _ => None,
+        };
+        let cancels = |part: &Part| {
+            let Some((friction, _)) = along(part) else {
+                return false;
+            };
+            let own = self.parts.iter().filter_map(|other| {
+                let (f, direction) = along(other)?;
+                (f == friction).then_some((other.weight, direction))
+            });
+            let (mut sum, mut weights) = ([0.0; 2], 0.0);
+            for (weight, direction) in own {
+                sum = [0, 1].map(|k| sum[k] + weight * direction[k]);
+                weights += weight;
+            }
+            sum[0].hypot(sum[1]) <= CANCELS * weights
+        };
+        self.parts.iter().all(cancels)
+    }
+
     /// Its value.
     pub fn value<T: Scalar>(&self, mode: &Mode, reading: &Reading<'_, T>) -> f64 {
         let mut value = [0.0];

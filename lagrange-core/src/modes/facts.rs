@@ -1,5 +1,6 @@
 //! What a decision starts from: the instant, the mode up to it, and what is known exactly.
 
+use crate::integrate::Tolerance;
 use crate::mode::Mode;
 use crate::modes::guard::Guard;
 use crate::system::Description;
@@ -28,6 +29,8 @@ pub struct SwitchFacts {
     pub jumped: bool,
     /// Guards of the present mode that have just been located as roots: the present mode goes on only where nothing else does.
     pub located: Vec<Guard>,
+    /// Guards that have just been located as roots and end no mode: limits of a friction that can hold nothing at this instant, beside others that hold.
+    pub touched: Vec<Guard>,
     /// Time has not advanced since the last switch: what has been located now is zero as exactly as time can tell.
     pub again: bool,
     /// What evaluation leaves of the forces that have been located as zero, relative to the terms that they are made of.
@@ -49,6 +52,7 @@ impl SwitchFacts {
         }
         self.jumped = false;
         self.located.clear();
+        self.touched.clear();
         self.again = false;
         self.residue = 0.0;
     }
@@ -67,6 +71,13 @@ pub struct EvaluationPoint<'a, T> {
     pub order: usize,
     /// Error that the state may have.
     pub tolerance: f64,
+}
+
+impl<T> EvaluationPoint<'_, T> {
+    /// Error that steps of the series may have.
+    pub fn allowed(&self) -> Tolerance<'static> {
+        Tolerance::both(self.tolerance.max(f64::EPSILON))
+    }
 }
 
 /// Where a mode ends and another is looked for.

@@ -92,6 +92,9 @@ impl<T: Scalar> Run<T> {
             .polynomials
             .held
             .clone_from(&self.switcher.decider.decision.held);
+        let redundant = &mut self.switcher.redundant;
+        let composites = &self.switcher.decider.decision.composites;
+        redundant.take_signs_of(composites, self.dynamics.description());
         self.now.outdate();
         self.hold_guards();
     }

@@ -115,6 +115,7 @@ impl<T: Scalar> Run<T> {
         // Velocities have jumped: what was located for the old ones says nothing about the new.
         facts.jumped = true;
         facts.located.clear();
+        facts.touched.clear();
     }
 
     /// Whether the slip of friction `f` vanishes after an impact.

@@ -8,7 +8,7 @@ use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::modes::facts::SwitchContext;
 use crate::modes::guard::{self, Guard};
 use crate::pool::Pool;
-use crate::system::{Description, Normal};
+use crate::system::{Description, Normal, ValueRef};
 
 /// More candidates than this are not enumerated: some five contacts with friction, or eight without, that may change at
 /// once. Beyond, [`pivot`](super::pivot) finds a mode without looking at all.
@@ -238,11 +238,23 @@ impl<T: Scalar> Choices<'_, T> {
             && guard::fades(f, self.dynamics)
     }
 
+    /// Whether friction `f` has no force, whatever presses it, and two components: a slip that comes to zero and goes on has no direction there. Derivatives by
+    /// its coefficient are those of one that acts.
+    fn is_smooth(&self, f: usize) -> bool {
+        let friction = &self.description().frictions[f];
+        let vanishes = |place: ValueRef| {
+            !place.varies() && T::DERIVATIVES == 0 && self.dynamics.motion(place).is_zero()
+        };
+        let unpressed = matches!(friction.normal, Normal::Given(place) if vanishes(place));
+        let coefficients = [friction.static_coefficient, friction.kinetic_coefficient];
+        friction.components > 1 && (unpressed || coefficients.into_iter().all(vanishes))
+    }
+
     /// What friction `f` may do in a mode: not act, stick, or slip in each direction that its slip can take.
     pub fn of_friction(&self, mode: &Mode, f: usize, mut put: impl FnMut(FrictionMode)) {
         let d = self.description();
         let friction = &d.frictions[f];
-        let idle = !friction.normal.presses(|c| mode.contacts[c]);
+        let idle = !friction.normal.presses(|c| mode.contacts[c]) || self.is_smooth(f);
         if idle || !self.dynamics.effects().includes(d, Item::Friction(f)) {
             return put(FrictionMode::Inactive);
         }

@@ -5,7 +5,7 @@ use super::just_after::{AHEAD, reach};
 use super::questions::{blame, concerns, leading, list_questions};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{AT_REST, Dynamics, EvaluationError, OutputMask};
-use crate::integrate::{Tolerance, horner};
+use crate::integrate::horner;
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::facts::{EvaluationPoint, SwitchContext};
 use crate::modes::guard::{self, Guard};
@@ -114,6 +114,7 @@ impl<T: Scalar> Decider<T> {
         for order in [LOW_ORDER.min(moment.order), moment.order] {
             dynamics.series(t, q, v, order)?;
             self.decision.expanded = serves && order == moment.order;
+            self.press_as_forces_begin(dynamics, here, order);
             match self.judge(dynamics, here, order) {
                 Some(true) => return self.keeps_bounds_later(dynamics, here, order),
                 Some(false) => return Ok(false),
@@ -124,6 +125,30 @@ impl<T: Scalar> Decider<T> {
             }
         }
         self.keeps_bounds_later(dynamics, here, moment.order)
+    }
+
+    /// Has bounds of undetermined forces read those of constraints that vanish at the instant as they begin, by the series that `dynamics` holds.
+    fn press_as_forces_begin(
+        &mut self,
+        dynamics: &Dynamics<T>,
+        here: SwitchContext<'_, T>,
+        order: usize,
+    ) {
+        if self.composites.is_empty() {
+            return;
+        }
+        let Self {
+            redundant,
+            composites,
+            sizes,
+            ..
+        } = self;
+        let reach = reach(dynamics, order, here.moment.allowed());
+        let nothing = |f: usize| {
+            let size = sizes.of(Guard::NormalForceSign(f), dynamics);
+            1e3 * here.blur() * size
+        };
+        redundant.press_as_forces_begin(composites, dynamics, reach, nothing);
     }
 
     /// Whether undetermined forces keep all bounds a little later as well, where their rows change: how they can share a load is then another
@@ -141,8 +166,7 @@ impl<T: Scalar> Decider<T> {
             return Ok(true);
         }
         let EvaluationPoint { t, q, v, .. } = here.moment;
-        let allowed = Tolerance::both(here.moment.tolerance.max(f64::EPSILON));
-        let later = T::from_f64(AHEAD * reach(dynamics, order, allowed));
+        let later = T::from_f64(AHEAD * reach(dynamics, order, here.moment.allowed()));
         let series = |row: &[T]| horner(&row[..=order], later);
         let coordinates = 0..q.len();
         let place = coordinates
@@ -185,8 +209,7 @@ impl<T: Scalar> Decider<T> {
         dynamics.set_extra_needs(&guard::all_row_needs(d, needs));
         dynamics.series(moment.t, moment.q, moment.v, moment.order)?;
         self.decision.expanded = false;
-        let allowed = Tolerance::both(moment.tolerance.max(f64::EPSILON));
-        let h = reach(dynamics, moment.order, allowed);
+        let h = reach(dynamics, moment.order, moment.allowed());
         let largest = |series: &[T]| {
             let powers = core::iter::successors(Some(1.0), |power| Some(power * h));
             let terms = series.iter().zip(powers);

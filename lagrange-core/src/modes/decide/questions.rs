@@ -105,7 +105,8 @@ pub(super) fn concerns(guard: Guard, composites: &[CompositeGuard], facts: &Swit
         let mut parts = composites[index].parts.iter();
         return parts.any(|part| concerns(part.guard, &[], facts));
     }
-    facts.located.iter().any(|root| {
+    let mut roots = facts.located.iter().chain(&facts.touched);
+    roots.any(|root| {
         *root == guard
             || match (*root, guard) {
                 (Guard::Normal(c), Guard::Gap(g)) | (Guard::Gap(c), Guard::Normal(g)) => c == g,

@@ -5,6 +5,7 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::linear::{ForceBounds, Linear};
 use crate::mode::FrictionMode;
+use crate::modes::composite::CompositeGuard;
 use crate::modes::guard::{self, ConePlane, Guard};
 use crate::system::{Normal, ValueRef};
 
@@ -80,7 +81,12 @@ impl<T: Scalar> RedundantForces<T> {
                     let Some(row) = index(d.constraints[on].row) else {
                         continue;
                     };
-                    pressing[0] = self.signs[on];
+                    // Only where a force is open its sign is a choice.
+                    let own = match self.least.freedom.is_determined(row) {
+                        true => self.sign_of_least(row),
+                        false => None,
+                    };
+                    pressing[0] = own.unwrap_or(self.signs[on]);
                     limits.push((row, coefficient * pressing[0]));
                     0.0
                 }
@@ -119,6 +125,49 @@ impl<T: Scalar> RedundantForces<T> {
             }
         }
         self.bounds.forces.complete();
+    }
+
+    /// Turns the planes that touch cones of frictions on constraints whose force vanishes at the instant, here and in `composites`: |λ| presses as λ begins.
+    /// `dynamics` holds the series of the instant, which are good for a time of `reach`; `nothing` says below which size the force that presses a
+    /// friction is zero.
+    pub fn press_as_forces_begin(
+        &mut self,
+        composites: &mut [CompositeGuard],
+        dynamics: &Dynamics<T>,
+        reach: f64,
+        nothing: impl Fn(usize) -> f64,
+    ) {
+        let d = dynamics.description();
+        for bound in &mut self.bounds.list {
+            let Guard::StickCone(f) = bound.guard else {
+                continue;
+            };
+            let normal = d.frictions[f].normal;
+            if !matches!(normal, Normal::Constraint(_) | Normal::Resultant(_)) {
+                continue;
+            }
+            let series: Vec<&[T]> = normal
+                .rows(d)
+                .map(|row| dynamics.force_series(row))
+                .collect();
+            let force = |k: usize| series.iter().map(move |series| series[k].value());
+            let size = |k: usize| force(k).fold(0.0, f64::hypot);
+            let orders = 0..series.iter().map(|series| series.len()).min().unwrap_or(0);
+            let begins = |k: &usize| size(*k) * reach.powi(*k as i32) > nothing(f);
+            let Some(k @ 1..) = orders.clone().find(begins) else {
+                continue;
+            };
+            let directions = bound.pressing.iter_mut().zip(force(k));
+            directions.for_each(|(pressing, force)| *pressing = force / size(k));
+            let parts = composites
+                .iter_mut()
+                .flat_map(|composite| &mut composite.parts);
+            for part in parts.filter(|part| part.guard == bound.guard) {
+                if let Some(plane) = &mut part.plane {
+                    plane.pressing = bound.pressing;
+                }
+            }
+        }
     }
 
     /// Adds a bound, if it has a part that is open: s ≥ 0, or s₀ ≥ √(s₁² + s₂²).

@@ -19,7 +19,7 @@ use crate::mode::FrictionMode;
 use crate::modes::composite::{CompositeGuard, Part};
 use crate::modes::guard::{ConePlane, Guard};
 use crate::modes::scale::Sizes;
-use crate::system::{Friction, Normal};
+use crate::system::{Description, Friction, Normal};
 use bounds::Bounds;
 use nalgebra::DVector;
 
@@ -95,9 +95,10 @@ impl<T: Scalar> RedundantForces<T> {
         let d = dynamics.description();
         let acting = dynamics.acting_rows();
         let index = |i: usize| acting.binary_search(&d.constraints[i].row).ok();
+        let known = |i: usize| self.signs.get(i).copied().unwrap_or(1.0);
         let of_least = |i: usize| match index(i) {
-            Some(k) if self.least.forces[k].value() < 0.0 => -1.0,
-            _ => 1.0,
+            Some(k) => self.sign_of_least(k).unwrap_or_else(|| known(i)),
+            None => 1.0,
         };
         self.signs = (0..d.constraints.len()).map(of_least).collect();
         self.list_bounds(dynamics);
@@ -121,6 +122,27 @@ impl<T: Scalar> RedundantForces<T> {
         }
         self.signs = best.2;
         self.list_bounds(dynamics);
+    }
+
+    /// The sign of a force of least norm, unless it vanishes beside the others.
+    fn sign_of_least(&self, k: usize) -> Option<f64> {
+        let forces = &self.least.forces;
+        let size = |force: &T| force.value().abs();
+        let largest = forces.iter().map(size).fold(0.0, f64::max);
+        let force = forces[k].value();
+        (force.abs() > ROUNDING * largest).then(|| force.signum())
+    }
+
+    /// Takes the signs that a decision has found for constraint forces which vanish at its instant.
+    pub fn take_signs_of(&mut self, composites: &[CompositeGuard], d: &Description) {
+        self.signs.resize(d.constraints.len(), 1.0);
+        for part in composites.iter().flat_map(|composite| &composite.parts) {
+            if let (Guard::StickCone(f), Some(plane)) = (part.guard, part.plane)
+                && let Normal::Constraint(on) = d.frictions[f].normal
+            {
+                self.signs[on] = plane.pressing[0];
+            }
+        }
     }
 
     /// Where the signs chosen last end: chooses others that allow forces by more than the `border`, of these those of the least forces. False: there
