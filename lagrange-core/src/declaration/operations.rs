@@ -1,7 +1,7 @@
 //! The operations that declared values are made of, and what they alone tell of the values: which of them may grow or jump where a series does
 //! not show it.
 
-use super::series::{COSH, EXP, SINH, TANH};
+use super::series::{ACOS, ASIN, COSH, EXP, SINH, TANH};
 use super::{BYTES, Declaration, op};
 use std::collections::BTreeMap;
 
@@ -150,6 +150,13 @@ impl Operations {
         angles.map(|o| o.value)
     }
 
+    /// The arguments of `asin` and `acos`, which have a corner where these are ±1.
+    pub(crate) fn arcs(&self) -> impl Iterator<Item = usize> {
+        let arcs = self.list.iter();
+        let arcs = arcs.filter(|o| matches!(o.function(), Some(ASIN | ACOS)));
+        arcs.map(|o| o.x)
+    }
+
     /// The bases of the roots, with an exponent of a half and whole numbers, that velocities or the time are in: those that a motion may take
     /// through zero, as it takes |v| of a body that turns back.
     pub(crate) fn roots(&self) -> impl Iterator<Item = usize> {
@@ -164,9 +171,11 @@ impl Operations {
         bases.into_iter().filter(turns)
     }
 
-    /// Whether values, or their gradients, may jump where no branch says so: at the cut of an `atan2`, or where what a root is taken of vanishes.
+    /// Whether values, or their gradients, may jump where no branch says so: at the cut of an `atan2`, at the ends of `asin` and `acos`, or where what a
+    /// root is taken of vanishes.
     pub(crate) fn may_jump(&self) -> bool {
         self.list.iter().any(|o| match o.code {
+            _ if matches!(o.function(), Some(ASIN | ACOS)) => true,
             op::ATAN2 => true,
             op::POWER => self.exponent(o).fract() != 0.0,
             _ => false,

@@ -69,6 +69,8 @@ impl<N: Real> Mul for Series<N> {
 }
 
 /// Numbers of functions.
+pub(super) const ASIN: u32 = 3;
+pub(super) const ACOS: u32 = 4;
 pub(super) const SINH: u32 = 6;
 pub(super) const COSH: u32 = 7;
 pub(super) const TANH: u32 = 8;
@@ -94,12 +96,12 @@ pub(super) fn function<N: Real>(number: u32, x: N) -> [N; 4] {
             let third = n(2.0) * u * (n(1.0) + n(3.0) * square(t));
             [t, u, n(2.0) * t * u, third]
         }
-        3 | 4 => {
+        ASIN | ACOS => {
             let w = (n(1.0) + minus(square(x))).raised(-0.5);
             let cube = w.raised(3.0);
             let third = cube + n(3.0) * square(x) * w.raised(5.0);
             match number {
-                3 => [x.asin(), w, x * cube, third],
+                ASIN => [x.asin(), w, x * cube, third],
                 _ => [x.acos(), minus(w), minus(x * cube), minus(third)],
             }
         }

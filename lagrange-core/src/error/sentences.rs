@@ -120,7 +120,7 @@ impl fmt::Display for Error {
             Error::Corner { time, item, rate } => write!(
                 f,
                 "t = {}: the rate of `{item}` jumps to {} where a piecewise expression changes, or where what a root is \
-                 taken of vanishes, and what velocities do at such a corner is not computed; round it, or write each side as a contact of its own",
+                 taken of vanishes or an asin or acos ends, and what velocities do at such a corner is not computed; round it, or write each side as a contact of its own",
                 Shortest(*time),
                 short(*rate)
             ),

@@ -128,24 +128,50 @@ impl<T: Scalar> Run<T> {
         let State { q, v, .. } = &self.now.state;
         let (position, velocity) = self.dynamics.residuals(self.now.t, q, v);
         self.now.valued = false;
-        let (d, time) = (self.description(), self.now.t.value());
-        if position.relative > self.corner() {
-            return Err(Error::Discontinuous {
-                time,
-                item: row_name(d, position.row),
-                before: 0.0,
-                after: position.value,
-            });
-        }
+        let time = self.now.t.value();
+        self.refuse_jump(time, position)?;
         self.refuse_corner(time, velocity)?;
+        self.refuse_jumping_gaps()?;
         self.refuse_kicks()
     }
 
+    /// Refuses gaps of open contacts that jump below zero: a floor that is higher all at once.
+    fn refuse_jumping_gaps(&mut self) -> Result<(), Error> {
+        let d = self.description();
+        if !self.now.mode.contacts.contains(&false) {
+            return Ok(());
+        }
+        let gaps = |run: &mut Self| -> Vec<f64> {
+            run.tape_of_all_rows();
+            (0..d.contacts.len()).map(|c| run.gap(c)).collect()
+        };
+        self.dynamics.set_mode(&self.recorder.before.mode);
+        let before = gaps(self);
+        self.dynamics.set_mode(&self.now.mode);
+        let after = gaps(self);
+        let jumps = (0..d.contacts.len()).find(|&c| {
+            let open = !self.now.mode.contacts[c] && !self.now.below[c];
+            let takes_part = self.dynamics.effects().includes(d, Item::Contact(c));
+            let below = after[c] < before[c].min(0.0) - self.corner() * self.extent(c).max(1.0);
+            open && takes_part && below && self.is_in_region(c)
+        });
+        self.ask_for_guards();
+        self.now.outdate();
+        jumps.map_or(Ok(()), |c| {
+            Err(Error::Discontinuous {
+                time: self.now.t.value(),
+                item: d.contacts[c].name,
+                before: before[c],
+                after: after[c],
+            })
+        })
+    }
+
     /// Refuses a step up to part `end` of it that has passed a corner of what acts, where no branch says so: the middle of a `norm`. Its state there,
-    /// which is at hand, does not keep the rates that it should.
+    /// which is at hand, does not keep the rates that it should. So with the cut of an `atan2`.
     ///
     /// # Errors
-    /// [`Error::Corner`].
+    /// [`Error::Discontinuous`] and [`Error::Corner`].
     pub(super) fn refuse_hidden_corners(&mut self, end: f64) -> Result<(), Error> {
         let may_pass = self.may_jump && !self.dynamics.acting_rows().is_empty();
         let tells = end > 0.0 && self.locator.rests.is_empty() && !self.is_undecided();
@@ -154,10 +180,25 @@ impl<T: Scalar> Run<T> {
         }
         let State { q, v, .. } = &self.stepper.scratch;
         let time = self.stepper.step.time(T::from_f64(end));
-        let (_, velocity) = self.dynamics.residuals(time, q, v);
+        let (position, velocity) = self.dynamics.residuals(time, q, v);
+        // A corner that the step has passed has moved what it was to end at.
         self.refuse_corner(time.value(), velocity)?;
+        self.refuse_jump(time.value(), position)?;
         // What the step has left is evaluated again.
         self.evaluate_end(end).map_err(|e| self.error(e))
+    }
+
+    /// Refuses a row that should be zero and is not.
+    fn refuse_jump(&self, time: f64, position: Residual) -> Result<(), Error> {
+        match position.relative > self.corner() {
+            true => Err(Error::Discontinuous {
+                time,
+                item: row_name(self.description(), position.row),
+                before: 0.0,
+                after: position.value,
+            }),
+            false => Ok(()),
+        }
     }
 
     /// Refuses a rate that should be zero and is not.

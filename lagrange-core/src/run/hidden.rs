@@ -12,7 +12,7 @@
 //! tells of it: the step ends beyond the cut instead, where accelerations show that they have jumped.
 //!
 //! A root √x², as |v| of a body that turns back, goes on as −x in its series. Where x passes zero twice nothing tells of it at the end of the step:
-//! the step ends between the zeros.
+//! the step ends between the zeros. So does asin(sin x), by the root √(1 − sin²x) that its slope is divided by.
 
 use super::piece::{Ends, extremes, largest_size, least_size, of_root, passes_cut, passes_zero};
 use crate::arithmetic::Scalar;
@@ -36,10 +36,13 @@ const FAR: f64 = 0.5;
 /// Lower powers grow by no more than a series of a loose tolerance follows.
 const HIGH: f64 = 8.0;
 
+/// The argument of `asin` or `acos` that changes by more than this in a piece may come to ±1 in it, and back.
+const SWING: f64 = 1.0;
+
 /// A step is looked at in so many pieces.
 const PIECES: usize = 8;
 
-/// The arguments of exponentials and powers, the angles and the roots in what acts.
+/// The arguments of exponentials and powers, the angles, the roots and the arcs in what acts.
 #[derive(Debug)]
 pub(super) struct Hidden {
     evaluator: Evaluator,
@@ -98,6 +101,8 @@ struct Angle {
 #[derive(Debug)]
 struct Root {
     base: usize,
+    /// Whether it is that of 1 − base².
+    of_arc: bool,
     /// The root and its change over a piece, at the beginning of the piece.
     before: Ends,
     /// Where the piece ends that it first has a corner in, as a part of the step.
@@ -117,14 +122,17 @@ impl Hidden {
             (base, Function::Power { exponent, largest })
         });
         let mut arguments: Vec<(usize, Function)> = exponentials.chain(powers).collect();
-        let [mut angles, mut roots]: [Vec<usize>; 2] =
-            [acting.angles().collect(), acting.roots().collect()];
+        let mut angles: Vec<usize> = acting.angles().collect();
+        let arcs = acting.arcs().map(|base| (base, true));
+        let roots = acting.roots().map(|base| (base, false));
+        let mut roots: Vec<(usize, bool)> = roots.chain(arcs).collect();
+        let bases = roots.iter().map(|(base, _)| base);
         let wanted = arguments.iter().map(|(argument, _)| argument);
-        let wanted = wanted.chain(&angles).chain(&roots).copied();
+        let wanted = wanted.chain(&angles).chain(bases).copied();
         let evaluator = Evaluator::new(system.declaration(), &system.parameters(), wanted);
         arguments.retain(|&(argument, _)| evaluator.follows_state(argument));
         angles.retain(|&angle| evaluator.follows_state(angle));
-        roots.retain(|&base| evaluator.follows_state(base));
+        roots.retain(|&(base, _)| evaluator.follows_state(base));
         if arguments.is_empty() && angles.is_empty() && roots.is_empty() {
             return None;
         }
@@ -140,8 +148,9 @@ impl Hidden {
             jumps: 0.0,
             beyond: None,
         });
-        let roots = roots.into_iter().map(|base| Root {
+        let roots = roots.into_iter().map(|(base, of_arc)| Root {
             base,
+            of_arc,
             before: [0.0; 2],
             corner: None,
         });
@@ -168,7 +177,7 @@ impl Hidden {
 
     /// Whether there are roots among them.
     pub(super) fn has_roots(&self) -> bool {
-        !self.roots.is_empty()
+        self.roots.iter().any(|root| !root.of_arc)
     }
 
     /// The part of a step, up to `end` of it, that hides nothing from a method of this order: `end`, or less.
@@ -199,7 +208,7 @@ impl Hidden {
             (angle.jumps, angle.beyond) = (0.0, None);
         }
         for root in &mut self.roots {
-            root.before = of_root(ends(&self.evaluator, root.base));
+            root.before = root.ends(ends(&self.evaluator, root.base));
             root.corner = None;
         }
         for n in 1..=PIECES {
@@ -220,7 +229,11 @@ impl Hidden {
                 angle.before = after;
             }
             for root in &mut self.roots {
-                let after = of_root(ends(&self.evaluator, root.base));
+                let base = ends(&self.evaluator, root.base);
+                if root.of_arc && base[1].abs() > SWING {
+                    return f64::max((n - 1) as f64, 0.5) * piece;
+                }
+                let after = root.ends(base);
                 let before = core::mem::replace(&mut root.before, after);
                 if !passes_zero(before, after) {
                     let mut dips = extremes(before, after).filter(|&(_, root)| root < 0.0);
@@ -255,6 +268,16 @@ impl Hidden {
             forces: &[],
             loads: &[],
         });
+    }
+}
+
+impl Root {
+    /// The root and its change, by those of its base.
+    fn ends(&self, [base, change]: Ends) -> Ends {
+        of_root(match self.of_arc {
+            true => [1.0 - base * base, -2.0 * base * change],
+            false => [base, change],
+        })
     }
 }
 

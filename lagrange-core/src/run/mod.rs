@@ -18,6 +18,7 @@ mod hit;
 mod impact;
 mod instant;
 mod jamming;
+mod jumping_slips;
 mod locator;
 pub(crate) mod lockstep;
 mod log;

@@ -129,21 +129,23 @@ impl<T: Scalar> Run<T> {
         }
         self.hand_over();
         let facts = &mut self.switcher.status.facts;
-        // A force of several constraints that has turned ends no mode: its friction slips on, pressed in another direction.
-        let turned = |guard: &Guard| match *guard {
+        let composites = &self.locator.polynomials.composites;
+        // A force of several constraints that has turned ends no mode: its friction slips on, pressed in another direction. Neither does what frictions
+        // can hold, if that is nothing at this instant.
+        let goes_on = |guard: &Guard| match *guard {
             Guard::NormalForceSign(f) => matches!(d.frictions[f].normal, Normal::Resultant(_)),
+            Guard::Composite(k) => composites[k].is_of_limits(),
             _ => false,
         };
-        let ending = self.locator.fallen.iter().filter(|guard| !turned(guard));
-        facts.located.extend(ending);
         facts.again = self.switcher.stuck.len() > 1;
         for guard in &self.locator.fallen {
+            let roots = match goes_on(guard) {
+                true => &mut facts.touched,
+                false => &mut facts.located,
+            };
+            roots.push(*guard);
             if let Guard::Composite(k) = *guard {
-                let parts = self.locator.polynomials.composites[k]
-                    .parts
-                    .iter()
-                    .map(|part| part.guard);
-                self.switcher.status.facts.located.extend(parts);
+                roots.extend(composites[k].parts.iter().map(|part| part.guard));
             }
         }
         self.settle()
@@ -179,12 +181,7 @@ impl<T: Scalar> Run<T> {
 
     fn settle_knowing(&mut self, facts: &mut SwitchFacts) -> Result<(), Error> {
         let hit = self.meet(facts)?;
-        let here = self
-            .now
-            .context(self.stepper.order, self.settings.tolerance, facts);
-        self.switcher
-            .decider
-            .decide(&mut self.dynamics, &mut self.switcher.table, here)?;
+        self.decide(facts)?;
         self.locator
             .zeros
             .clone_from(&self.switcher.decider.decision.zeros);

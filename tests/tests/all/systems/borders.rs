@@ -225,25 +225,121 @@ struct Stopped {
     speed: f64,
 }
 
-/// No acceleration tells that they do, and velocities do not follow.
+/// No acceleration tells that they do. The velocity does not follow the floor; on the belt friction slows the block down.
 #[test]
-fn what_stops_at_once_ends_the_run() {
-    for (rise, speed, stops) in [(0.5, 0.0, "floor"), (0.0, 0.5, "belt")] {
-        let scene = Stopped {
-            gravity: G,
-            rise,
+fn a_floor_that_stops_at_once_ends_the_run_and_a_belt_does_not() {
+    let scene = |rise, speed| Stopped {
+        gravity: G,
+        rise,
+        speed,
+    };
+    everyhow(|method, tolerance| {
+        let run = |scene: &Stopped| {
+            let simulation = Simulation::new(scene).method(method).tolerance(tolerance);
+            simulation.run(state(&[0.0; 2], &[scene.speed, scene.rise]), 0.0..2.0)
+        };
+        let failure = run(&scene(0.5, 0.0)).expect_err("the floor stops");
+        let Error::Corner { time, item, rate } = failure.error else {
+            panic!("{failure}");
+        };
+        assert_eq!(item, "floor");
+        agree("time", time, 1.0, 1e-12);
+        agree("rate", rate, 0.5, 1e-9);
+        let slides = run(&scene(0.0, 0.5)).expect("the belt stops");
+        let place = 0.5 + 0.5 * 0.5 / (2.0 * 0.3 * G);
+        agree("place", slides.final_state().q[0], place, 10.0 * tolerance);
+    });
+}
+
+/// A ball above a floor that is higher all at once.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y),
+    kinetic = der(y)^2 / 2,
+    contact(floor: y >= if(t <= raised, 0, higher)),
+    start(go: y = 2, der(y) = -speed),
+)]
+struct Raised {
+    raised: f64,
+    higher: f64,
+    speed: f64,
+}
+
+#[test]
+fn a_floor_that_jumps_above_a_ball_ends_the_run() {
+    for (raised, higher, speed) in [(1.0, 5.0, 0.1), (0.7, 1.8, 0.4), (1.0, 0.5, 0.2)] {
+        let scene = Raised {
+            raised,
+            higher,
             speed,
         };
         everyhow(|method, tolerance| {
             let simulation = Simulation::new(&scene).method(method).tolerance(tolerance);
-            let run = simulation.run(state(&[0.0; 2], &[speed, rise]), 0.0..2.0);
-            let failure = run.expect_err("it stops");
-            let Error::Corner { time, item, rate } = failure.error else {
-                panic!("{failure}");
-            };
-            assert_eq!(item, stops);
-            agree("time", time, 1.0, 1e-12);
-            agree("rate", rate, 0.5, 1e-9);
+            let run = simulation.run(scene.at(Raised::GO), 0.0..2.0);
+            let height = 2.0 - speed * raised;
+            match (run, higher < height) {
+                (Ok(run), true) => {
+                    agree(
+                        "height",
+                        run.final_state().q[0],
+                        2.0 - 2.0 * speed,
+                        tolerance,
+                    );
+                }
+                (Err(failure), false) => {
+                    let Error::Discontinuous {
+                        time,
+                        item,
+                        before,
+                        after,
+                    } = failure.error
+                    else {
+                        panic!("{failure}")
+                    };
+                    assert_eq!(item, "floor");
+                    agree("time", time, raised, 1e-12);
+                    agree("before", before, height, tolerance);
+                    agree("after", after, height - higher, tolerance);
+                }
+                (run, _) => panic!("{scene:?}: {:?}", run.map(|_| ())),
+            }
+        });
+    }
+}
+
+/// What is told to move to and fro by angles of what turns evenly: in a zigzag, and in steps.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, turn),
+    kinetic = (der(x)^2 + der(turn)^2) / 2,
+    define(zigzag = asin(sin(turn)), saw = atan2(sin(turn), cos(turn))),
+    constraint(moved: x == size*(share*zigzag + (1 - share)*saw)),
+    start(go: der(turn) = rate, der(x) = size*rate),
+)]
+struct Told {
+    size: f64,
+    share: f64,
+    rate: f64,
+}
+
+/// Their series know nothing of the corners and jumps, and steps could pass many of them.
+#[test]
+fn angles_at_their_ends_end_the_run() {
+    for (size, rate, until) in [(0.1, 1.0, 20.0), (0.01, 6.0, 20.0), (1.0, 0.7, 12.0)] {
+        everyhow(|method, tolerance| {
+            for share in [1.0, 0.0] {
+                let scene = Told { size, share, rate };
+                let simulation = Simulation::new(&scene).method(method).tolerance(tolerance);
+                let failure = simulation
+                    .run(scene.at(Told::GO), 0.0..until)
+                    .expect_err("it passes an end");
+                let at_end = match failure.error {
+                    Error::Corner { item, .. } => item == "moved" && share > 0.0,
+                    Error::Discontinuous { item, .. } => item == "moved" && share == 0.0,
+                    _ => false,
+                };
+                assert!(at_end, "{share} {method}: {failure}");
+            }
         });
     }
 }
