@@ -236,8 +236,12 @@ impl<T: Scalar> Run<T> {
     /// impacts that led here, and how long the others last.
     fn accumulate(&mut self, c: usize, facts: &mut SwitchFacts) -> Option<(usize, T)> {
         let (rate, _) = self.rate(self.description().contacts[c].row);
-        let (remaining, uncertain) = self.switcher.impacts[c].book(self.now.t, rate)?;
-        let certain = uncertain <= self.settings.tolerance * self.now.t.value().abs().max(1.0)
+        let impacts = &mut self.switcher.impacts[c];
+        let (remaining, uncertain) = impacts.book(self.now.t, rate)?;
+        let height = impacts.height;
+        // Nothing becomes more certain by bounces that are too low for the gap.
+        let certain = height <= self.rounding_of_gap(c)
+            || uncertain <= self.settings.tolerance * self.now.t.value().abs().max(1.0)
             || remaining.value() <= rounding::<T>(RESOLUTION) * self.now.t.value().abs();
         if !(certain && self.is_over(remaining.value())) {
             return None;

@@ -9,6 +9,11 @@ use crate::modes::guard::Guard;
 /// A body that is closed at some points may be off by so many times more at others.
 const LEVER: f64 = 4.0;
 
+/// A gap that comes back to zero after some steps is off by so many times what rounding makes of it at one instant,
+const DRIFT: f64 = 50.0;
+/// and by no more than it closes by in this share of the time: one that closes as slowly as it is small closes later.
+const INSTANT: f64 = 1e-12;
+
 /// What is no larger than this beside the terms that make it is what rounding has left of zero.
 pub(super) const ROUNDING: f64 = 1e-13;
 
@@ -56,7 +61,11 @@ impl<T: Scalar> Run<T> {
     /// Whether rounding explains the gap of contact `c`, or what the run has left of the gaps that vanish, which are `off` by so much: a table that
     /// falls back from two of its feet lands on the others at once.
     pub(super) fn is_within_rounding(&self, c: usize, off: f64) -> bool {
-        self.is_in_region(c) && self.gap(c).abs() <= self.rounding_of_gap(c).max(LEVER * off)
+        let (gap, rounding) = (self.gap(c).abs(), self.rounding_of_gap(c));
+        let (rate, _) = self.rate(self.description().contacts[c].row);
+        let closes = -rate * INSTANT * self.now.t.value().abs().max(1.0);
+        let drifts = (DRIFT * rounding).min(closes);
+        self.is_in_region(c) && gap <= rounding.max(LEVER * off).max(drifts)
     }
 
     /// Whether the gap of contact `c` and its rate vanish beside the terms that make them; gaps that vanish are `off` by so much.
@@ -69,7 +78,7 @@ impl<T: Scalar> Run<T> {
     }
 
     /// What the gap of contact `c` changes by when each coordinate x changes by 1, or |x| if that is more; `dynamics` holds the numbers of its row.
-    fn extent(&self, c: usize) -> f64 {
+    pub(super) fn extent(&self, c: usize) -> f64 {
         let row = self.description().contacts[c].row;
         let size = |j: usize| self.now.state.q[j].value().abs().max(1.0);
         self.dynamics.size_of_row(row, size)

@@ -3,7 +3,7 @@
 use super::state;
 use lagrange_core::prelude::*;
 use lagrange_tests::{
-    METHODS, Random, TOLERANCES, agree, closure, event, methods_at, run, run_by, words,
+    METHODS, Random, TOLERANCES, agree, certified, closure, event, methods_at, run, run_by, words,
 };
 
 /// A body that lands on a rough plane: two directions of slip, each with a wheel of its own moment of inertia.
@@ -208,6 +208,57 @@ fn a_mass_that_lands_does_not_lift_what_it_is_measured_from() {
             let motion = run_by(&scene, (method, tolerance), start, 1.0);
             let what = format!("{scene:?} {r} {angle} {v:?} by {method} at {tolerance:e}");
             assert_eq!(words(&motion), ["ground impact", "ground closed"], "{what}");
+        }
+    }
+}
+
+/// A mass slides down a smooth ramp onto a rough floor.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2)/2,
+    potential = gravity*y,
+    contact(ramp: x*sin(angle) + y*cos(angle) >= 0, restitution = off_ramp),
+    contact(floor: y >= -drop, restitution = off_floor),
+    friction(rub on floor: slip = der(x), static = mu),
+)]
+struct Ramp {
+    gravity: f64,
+    angle: f64,
+    drop: f64,
+    off_ramp: f64,
+    off_floor: f64,
+    mu: f64,
+}
+
+/// As it lands the friction stops what goes ahead, so that it falls straight back into the corner. Ramp and floor throw it off together there, and where
+/// it lands next the friction stops it for good.
+#[test]
+fn a_mass_that_falls_back_into_a_corner_meets_both_its_sides() {
+    let mut random = Random::new(7);
+    for _ in 0..12 {
+        let scene = Ramp {
+            gravity: 9.81,
+            angle: random.between(0.55, 1.3),
+            drop: random.between(0.3, 4.0),
+            off_ramp: 0.6,
+            off_floor: 0.3,
+            mu: 1.5,
+        };
+        let speed = random.between(0.05, 0.5);
+        let (sine, cosine) = scene.angle.sin_cos();
+        // At the foot of the ramp, then up from the floor and back.
+        let foot = (speed * speed + 2.0 * scene.gravity * scene.drop).sqrt();
+        let back = scene.off_floor * foot * sine;
+        let ahead = back * cosine / sine * (scene.off_ramp - scene.off_floor);
+        let flight = 2.0 * scene.off_floor * back / scene.gravity;
+        let rests = scene.drop * cosine / sine + ahead * flight;
+        for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+            let start = state(&[0.0, 0.0], &[speed * cosine, -speed * sine]);
+            let run = run_by(&scene, (method, tolerance), start, 4.0);
+            let what = format!("{scene:?} {speed} {method} {tolerance}");
+            agree(&what, run.final_state().q[0], rests, 100.0 * tolerance);
+            certified(&what, &run);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{METHODS, TOLERANCES, agree, event, methods_at, run_by};
+use lagrange_tests::{METHODS, TOLERANCES, agree, certified, event, methods_at, root, run_by};
 
 /// A block dropped onto a rough incline, which lifts or not while the block bounces.
 #[derive(Lagrangian, Clone, Debug)]
@@ -368,6 +368,180 @@ fn the_last_bounces_move_nothing_that_lies_elsewhere() {
             event(&motion, "floor", "accumulates");
             let expected = shaken * 5.0_f64.sin();
             agree(&what, motion.final_state().q[1], expected, 10.0 * tolerance);
+        }
+    }
+}
+
+/// A hammer that a growing and falling force pushes against an anvil that dry friction holds.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, u),
+    kinetic = anvil/2 * der(x)^2 + hammer/2 * der(u)^2,
+    force(push: u = strength * (1 + sin(pulse * t) / 2)),
+    contact(face: u <= x, restitution = bounce),
+    friction(ground: slip = der(x), limit = (held, rubs)),
+    start(back: x = place, u = place - stroke),
+)]
+struct Hammer {
+    anvil: f64,
+    hammer: f64,
+    strength: f64,
+    pulse: f64,
+    bounce: f64,
+    held: f64,
+    rubs: f64,
+    place: f64,
+    stroke: f64,
+}
+
+impl Hammer {
+    /// How far the hammer is driven from rest in a time after `t`, and how fast it is then.
+    fn driven(&self, t: f64, time: f64) -> [f64; 2] {
+        let (w, a) = (self.pulse, self.strength / self.hammer);
+        let turned = w * (t + time);
+        let far = time * (w * t).cos() / w - (turned.sin() - (w * t).sin()) / (w * w);
+        let fast = ((w * t).cos() - turned.cos()) / w;
+        [a * (time * time / 2.0 + far / 2.0), a * (time + fast / 2.0)]
+    }
+
+    /// Where the anvil comes to rest: from blow to blow, until the hammer is as good as at rest on it, and as far as both slide on.
+    fn ends_at(&self) -> f64 {
+        let (mut t, mut x) = (0.0, self.place);
+        // Velocities just after a blow, and how far behind the anvil the hammer is.
+        let (mut ahead, mut back, mut behind) = (0.0, 0.0, self.stroke);
+        let braked = self.rubs / self.anvil;
+        loop {
+            let slides = |time: f64| {
+                let time = time.min(ahead / braked);
+                ahead * time - braked / 2.0 * time * time
+            };
+            let gap = |time: f64| behind + slides(time) - back * time - self.driven(t, time)[0];
+            let mut late = 1e-9;
+            while gap(late) > 0.0 || late < 1e-8 {
+                late *= 1.5;
+            }
+            let time = root(gap, late / 1e4, late);
+            let speed = back + self.driven(t, time)[1];
+            let rest = (ahead - braked * time).max(0.0);
+            (t, x, behind) = (t + time, x + slides(time), 0.0);
+            let blow =
+                (1.0 + self.bounce) * (speed - rest) / (1.0 / self.anvil + 1.0 / self.hammer);
+            (ahead, back) = (rest + blow / self.anvil, speed - blow / self.hammer);
+            if blow < 1e-6 {
+                break;
+            }
+        }
+        let both = self.anvil + self.hammer;
+        let speed = (self.anvil * ahead + self.hammer * back) / both;
+        let on = |time: f64| {
+            let [far, fast] = self
+                .driven(t, time)
+                .map(|driven| driven * self.hammer / both);
+            let braked = self.rubs / both * time;
+            [far + (speed - braked / 2.0) * time, fast + speed - braked]
+        };
+        let slides = root(|time| on(time)[1], 0.0, 1.0);
+        x + on(slides)[0]
+    }
+}
+
+/// The anvil slides a little at every blow and rests before the next one. What it slides at the last of them is less than what rounds its place.
+#[test]
+fn blows_too_small_to_be_seen_in_positions_come_to_an_end() {
+    for (place, hammer, bounce, rubs) in [
+        (0.05, 1.2, 0.81, 3.5),
+        (0.07, 1.1, 0.75, 3.9),
+        (1.7, 1.3, 0.7, 4.4),
+        (40.0, 1.2, 0.81, 3.7),
+        (-3.0, 1.4, 0.6, 4.1),
+    ] {
+        let scene = Hammer {
+            anvil: 1.0,
+            hammer,
+            strength: 2.24,
+            pulse: 20.0,
+            bounce,
+            held: 4.5,
+            rubs,
+            place,
+            stroke: 0.03,
+        };
+        let ends = scene.ends_at();
+        for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+            let motion = run_by(&scene, (method, tolerance), scene.at(Hammer::BACK), 1.5);
+            let what = format!("{scene:?} by {method} at {tolerance:e}");
+            event(&motion, "face", "accumulates");
+            certified(&what, &motion);
+            let [x, u] = motion.final_state().q[..] else {
+                panic!("two coordinates")
+            };
+            agree(&what, x, ends, 100.0 * tolerance);
+            agree(&what, x, u, tolerance);
+        }
+    }
+}
+
+/// A peg on a spring in a slot with play and rough sides; the slot rubs on its guide.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = peg/2 * der(x)^2 + slot/2 * der(y)^2,
+    potential = stiffness/2 * (x - 1/5)^2 + load * y,
+    contact(upper: 2*x - y >= -1/50, restitution = bounce),
+    contact(lower: 2*x - y <= 1/50, restitution = bounce),
+    friction(over on upper: slip = der(x) + der(y), static = mu, kinetic = rubs),
+    friction(under on lower: slip = der(x) + der(y), static = mu, kinetic = rubs),
+    friction(guide: slip = der(y), limit = held),
+    start(go: der(x) = speed),
+)]
+struct Slot {
+    peg: f64,
+    slot: f64,
+    stiffness: f64,
+    load: f64,
+    bounce: f64,
+    mu: f64,
+    rubs: f64,
+    held: f64,
+    speed: f64,
+}
+
+/// The guide lets the slot slip at each blow and holds it again: what it moves by in the last ones is less than rounding, so that they would go on for ever.
+#[test]
+fn bounces_between_which_a_friction_turns_come_to_an_end() {
+    let rattles = Slot {
+        peg: 1.685,
+        slot: 0.594,
+        stiffness: 5.685,
+        load: 0.659,
+        bounce: 0.475,
+        mu: 0.327,
+        rubs: 0.271,
+        held: 0.478,
+        speed: 0.394,
+    };
+    let heavy = Slot {
+        peg: 1.378,
+        slot: 1.897,
+        stiffness: 10.516,
+        load: 0.984,
+        bounce: 0.444,
+        mu: 0.568,
+        rubs: 0.224,
+        held: 0.111,
+        speed: 0.321,
+    };
+    for scene in [rattles, heavy] {
+        let coarse = run_by(&scene, ("dopri5", 1e-7), scene.at(Slot::GO), 1.0);
+        for (method, tolerance) in methods_at(METHODS, [1e-9, 1e-12]) {
+            let motion = run_by(&scene, (method, tolerance), scene.at(Slot::GO), 1.0);
+            let what = format!("{scene:?} by {method} at {tolerance:e}");
+            certified(&what, &motion);
+            assert!(motion.events().len() < 80, "{what}");
+            let states = [&motion, &coarse].map(|run| run.final_state());
+            for (found, expected) in states[0].q.iter().zip(&states[1].q) {
+                agree(&what, *found, *expected, 1e-5);
+            }
         }
     }
 }
