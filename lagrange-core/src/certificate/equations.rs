@@ -28,6 +28,8 @@ pub(super) struct Equations {
     pub effects: Effects,
     /// Per coordinate: the size below which its errors are absolute; empty: 1 for all.
     pub sizes: Vec<f64>,
+    /// Values of the parameters.
+    pub parameters: Vec<f64>,
     /// Constraints, contacts and frictions.
     pub values: Evaluator,
     /// Everything that balances.
@@ -189,6 +191,7 @@ impl Equations {
             declaration,
             effects: effects.clone(),
             sizes,
+            parameters: parameters.to_vec(),
             values: Evaluator::new(declaration, parameters, surfaces(declaration)),
             balancing: Evaluator::new(declaration, parameters, balancing(declaration)),
             residual: zero(),
@@ -311,12 +314,14 @@ impl Equations {
         found.map(|(_, contact)| contact.gap)
     }
 
-    /// Whether a value of the state that was balanced is zero to within the tolerance.
+    /// Whether a value of the state that was balanced is zero to within the tolerance of positions, velocities and the time.
     fn vanishes(&mut self, value: usize, at: Situation<'_>, tolerance: f64) -> bool {
-        let number = self.balancing.value(value);
+        let (number, rate) = (self.balancing.value(value), self.balancing.rate(value));
         self.balancing
             .gradient_size(value, 0, &mut self.sizes_along);
-        number.abs() <= tolerance * change(&self.sizes_along, &self.sizes, [at.q, at.v])
+        let by_state = change(&self.sizes_along, &self.sizes, [at.q, at.v]);
+        let by_time = rate.abs() * at.time.abs().max(1.0);
+        number.abs() <= tolerance * (by_state + by_time)
     }
 
     /// Whether what balances at the last state is beyond rounding at first sight.

@@ -297,7 +297,11 @@ impl<'a, T: Scalar> Examination<'a, T> {
             // How forces can be shared out may be wrong for a while within.
             let count = if reported.shared { WITHIN } else { 0 };
             let within = gauss(count).into_iter().map(|(x, _)| 0.5 * (1.0 + x));
-            for part in within.chain([1.0 - SHORTLY]) {
+            // The time of the event that ends it is known to the tolerance.
+            let (t, h) = (segment.t.value(), segment.h.value());
+            let known = self.findings.tolerance * t.abs().max(1.0) / (h * segment.end.value());
+            let last = 1.0 - known.clamp(SHORTLY, 1.0);
+            for part in within.chain([last]) {
                 let now = self.report(k, part * segment.end.value())?;
                 let at = now.situation(self.begin.q.len());
                 let mode = &self.modes[segment.mode];

@@ -2,6 +2,7 @@
 
 use super::equations::{Equations, Situation, change};
 use crate::arithmetic::{GOLDEN, uneven};
+use crate::declaration::{Evaluator, Inputs, Interval};
 use crate::error::Level;
 use crate::mode::Mode;
 use crate::trajectory::State;
@@ -12,6 +13,14 @@ const GROWS: f64 = 1.1;
 /// Velocities that are larger by 1, all of one sign.
 fn raised(v: &[f64]) -> Vec<f64> {
     v.iter().map(|v| 1.0 + v.abs()).collect()
+}
+
+/// The power of time whose coefficient is the rate of a value that accelerations make, and its factor.
+fn rate_of(level: Level) -> (usize, f64) {
+    match level {
+        Level::Position => (2, 2.0),
+        Level::Velocity => (1, 1.0),
+    }
 }
 
 impl Equations {
@@ -269,7 +278,35 @@ impl Equations {
         let (_, of_raised) = self.acceleration_beside(1.0, value, level, at);
         self.take(at);
         let (error, size) = self.acceleration_beside(1.0, value, level, at);
-        (error, size.max(of_raised))
+        let size = size.max(of_raised);
+        match error.abs() <= self.exact * size {
+            true => (error, size),
+            false => (error, size.max(self.terms(value, level, at))),
+        }
+    }
+
+    /// The size of the terms that such a rate is made of, also where those of the time cancel one another: by how much it is uncertain where time, state and
+    /// accelerations are, beside that.
+    fn terms(&self, value: usize, level: Level, at: Situation<'_>) -> f64 {
+        /// An uncertainty that is small enough to be linear, and large enough not to be rounding.
+        const BLUR: f64 = 1e-9;
+        let blurred = |x: f64| Interval::new(x - BLUR * x.abs(), x + BLUR * x.abs());
+        let all = |list: &[f64]| -> Vec<Interval> { list.iter().map(|&x| blurred(x)).collect() };
+        let mut ranges = Evaluator::new(self.declaration, &self.parameters, [value]);
+        let nothing = vec![Interval::default(); self.zeros.len()];
+        let (q, v, acceleration) = (all(at.q), all(at.v), all(at.acceleration));
+        ranges.evaluate(Inputs {
+            time: blurred(at.time),
+            q: &q,
+            v: &v,
+            acceleration: &acceleration,
+            forces: &nothing,
+            loads: &nothing,
+        });
+        let (power, factor) = rate_of(level);
+        let range = ranges.coefficient(value, power);
+        let size = factor * (range.high - range.low) / (2.0 * BLUR);
+        if size.is_finite() { size } else { 0.0 }
     }
 
     /// The same where velocities v have the sizes `least` + |v|.
@@ -280,10 +317,7 @@ impl Equations {
         level: Level,
         at: Situation<'_>,
     ) -> (f64, f64) {
-        let (power, factor) = match level {
-            Level::Position => (2, 2.0),
-            Level::Velocity => (1, 1.0),
-        };
+        let (power, factor) = rate_of(level);
         let sizes = &mut self.sizes_along;
         self.values.gradient_size(value, power, sizes);
         let mut size = 0.0;

@@ -3,7 +3,9 @@
 use lagrange_core::prelude::*;
 use lagrange_problems::catalogue::scenes;
 use lagrange_tests::fuzz::{self, Verdict};
-use lagrange_tests::{METHODS, Random, TOLERANCES, certified, methods_at, run, run_by, words};
+use lagrange_tests::{
+    METHODS, Random, TOLERANCES, agree, certified, methods_at, run, run_by, words,
+};
 
 /// Random runs that fall short of their bounds, each for a reason that is to be found.
 const SHORT: [u64; 0] = [];
@@ -223,6 +225,43 @@ fn what_is_all_rounding_is_no_error() {
         );
         assert_eq!(words(&deaf).len(), 1, "{:?}", words(&deaf));
         certified("deaf", &deaf);
+    }
+}
+
+/// What is moved evenly by formulas whose accelerations cancel, and a block that a square wave pushes.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, z, u),
+    kinetic = (der(x)^2 + der(y)^2 + der(z)^2 + der(u)^2)/2,
+    constraint(root: x == sqrt(t^2 + 2*a*t + a^2) - a),
+    constraint(quotient: y == (t^2 - a^2)/(t + a) + a),
+    constraint(arc: z == asin(sin(t/4))),
+    force(wave: u = if(sin(pi*t/a) >= 0, 2, -2)),
+    friction(rub: slip = der(u), limit = 1),
+)]
+struct Even {
+    a: f64,
+}
+
+/// The last change of the wave is just before the end of the run.
+#[test]
+fn accelerations_that_cancel_and_a_change_at_the_end_are_no_error() {
+    for a in [1.0, 0.5, 1.3] {
+        let until = 4.0 * a;
+        for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+            let start = State::new(vec![0.0; 4], vec![1.0, 1.0, 0.25, 0.0]);
+            let motion = run_by(&Even { a }, (method, tolerance), start, until);
+            let what = format!("{a} by {method} at {tolerance:e}");
+            for (x, expected) in motion
+                .final_state()
+                .q
+                .iter()
+                .zip([until, until, until / 4.0])
+            {
+                agree(&what, *x, expected, 10.0 * tolerance);
+            }
+            certified(&what, &motion);
+        }
     }
 }
 
