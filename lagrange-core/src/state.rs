@@ -187,7 +187,7 @@ impl<T: Copy> FixedComponents<T> {
     /// Writes the values into a state, and says per coordinate whether its position, and whether its velocity is fixed.
     ///
     /// # Errors
-    /// [`Error::Dimension`] for a coordinate that the system does not have.
+    /// [`Error::Argument`] for a coordinate that the system does not have.
     pub(crate) fn write(&self, state: &mut State<T>) -> Result<[Vec<bool>; 2], Error> {
         let positions = write(&self.positions, &mut state.q)?;
         let velocities = write(&self.velocities, &mut state.v)?;
@@ -200,9 +200,10 @@ fn write<T: Copy>(values: &[(CoordinateId, T)], numbers: &mut [T]) -> Result<Vec
     let mut fixed = vec![false; numbers.len()];
     for &(CoordinateId(i), value) in values {
         let (Some(number), Some(is_fixed)) = (numbers.get_mut(i), fixed.get_mut(i)) else {
-            return Err(Error::Dimension {
-                expected: fixed.len(),
-                found: i + 1,
+            return Err(Error::Argument {
+                what: "index of the coordinate that is fixed",
+                value: i as f64,
+                expected: "less than this system has coordinates; the handle is one of another system",
             });
         };
         (*number, *is_fixed) = (value, true);

@@ -66,7 +66,7 @@ impl<T: Scalar> Emitted<T> {
         let d = system.description();
         let mut missing = effects.left_out().filter_map(|item| match item {
             Item::Constraint(i) => {
-                let contact = d.constraints[i].while_contact;
+                let contact = d.constraints.get(i)?.while_contact;
                 contact
                     .is_none_or(|contact| mode.contacts[contact])
                     .then_some(i)

@@ -87,15 +87,17 @@ pub(super) fn of_effects(description: &Description, effects: &Effects) -> Output
     if let Some(last) = needs.words.last_mut() {
         *last >>= spare;
     }
-    for item in effects.left_out() {
-        match item {
-            Item::Kinetic(i) => needs.remove(description.kinetic[i].need),
-            Item::Potential(i) => needs.remove(description.potential[i].need),
-            Item::Force(i) => needs.remove(description.forces[i].need),
-            Item::Dissipation(i) => needs.remove(description.dissipations[i].need),
-            _ => {}
-        }
-    }
+    // An item of another system is refused when a run begins.
+    let d = description;
+    let contribution = |item: Item| match item {
+        Item::Kinetic(i) => d.kinetic.get(i).map(|energy| energy.need),
+        Item::Potential(i) => d.potential.get(i).map(|energy| energy.need),
+        Item::Force(i) => d.forces.get(i).map(|force| force.need),
+        Item::Dissipation(i) => d.dissipations.get(i).map(|load| load.need),
+        _ => None,
+    };
+    let missing = effects.left_out().filter_map(contribution);
+    missing.for_each(|need| needs.remove(need));
     needs.insert(0);
     needs
 }

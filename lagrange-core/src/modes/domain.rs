@@ -105,7 +105,7 @@ pub fn check_acting<T: Scalar>(dynamics: &Dynamics<T>, t: f64) -> Result<(), Err
         };
         let numbers = normal_force(friction).into_iter().chain([coefficient]);
         let numbers = numbers.filter(|number| number.place.varies());
-        refuse_negative(dynamics, t, f, numbers)?;
+        refuse_meaningless(dynamics, t, f, numbers)?;
     }
     Ok(())
 }
@@ -159,7 +159,7 @@ fn least(place: ValueRef) -> f64 {
     if place.varies() { -DECAYED } else { 0.0 }
 }
 
-fn refuse_negative<T: Scalar>(
+fn refuse_meaningless<T: Scalar>(
     dynamics: &Dynamics<T>,
     t: f64,
     f: usize,
@@ -172,13 +172,15 @@ fn refuse_negative<T: Scalar>(
     } in numbers
     {
         let value = dynamics.motion(place).value();
-        if value < least(place) {
+        let infinite = !value.is_finite() && !place.varies();
+        if value < least(place) || infinite {
             return Err(Error::Domain {
                 time: t,
                 item: dynamics.description().frictions[f].name,
                 what,
                 value,
                 expected: match place.varies() {
+                    _ if infinite => "a finite number".to_owned(),
                     true => "at least 0; where nothing presses write `max(…, 0)`".to_owned(),
                     false => "at least 0".to_owned(),
                 },
@@ -204,7 +206,7 @@ fn check_friction<T: Scalar>(
     let numbers = [static_friction(friction), kinetic_friction(friction)];
     let numbers = numbers.into_iter().chain(normal_force(friction));
     let counts = |number: &Number| !number.place.varies() || mode != FrictionMode::Inactive;
-    refuse_negative(dynamics, t, f, numbers.filter(counts))?;
+    refuse_meaningless(dynamics, t, f, numbers.filter(counts))?;
     // Where the coefficients depend on the slip it is those at rest that must agree.
     let (at_rest, sliding) = (friction.static_coefficient, friction.kinetic_coefficient);
     let [limit, value] = [at_rest, sliding].map(|place| dynamics.motion(place).value());

@@ -6,7 +6,7 @@ use crate::arithmetic::Scalar;
 use crate::error::Error;
 use crate::mode::Mode;
 use crate::modes::start;
-use crate::settings::Awaited;
+use crate::settings::{Awaited, check_span, check_start};
 use crate::state::FixedComponents;
 use crate::trajectory::{State, Trajectory, Work};
 use core::ops::Range;
@@ -46,7 +46,8 @@ impl<T: Scalar> Run<T> {
         let t = T::from_f64(span.start);
         self.now.mode.clear();
         self.now.t = t;
-        (self.begin, self.end) = (span.start, span.end);
+        // Single precision has no number for most last times.
+        (self.begin, self.end) = (t.value(), T::from_f64(span.end).value());
         self.now.state.clone_from(start);
         self.now.state.name(self.dynamics.description());
         let state = &self.now.state;
@@ -175,6 +176,12 @@ impl<T: Scalar> Run<T> {
         reference: &State<T>,
         fixed: &FixedComponents<T>,
     ) -> Result<State<T>, Error> {
+        let d = self.description();
+        check_span(&(time..time))?;
+        reference.check_dimension(d.coordinates.len())?;
+        let mut given = reference.clone();
+        fixed.write(&mut given)?;
+        check_start(d, &given, time)?;
         let begun = self.mode_at(time, reference);
         let tolerance = self.settings.per_step();
         let dynamics = &mut self.dynamics;

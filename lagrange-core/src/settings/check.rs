@@ -67,11 +67,8 @@ impl Settings {
         if !(least..=0.1).contains(&self.tolerance) {
             return Err(argument("tolerance", self.tolerance, expected));
         }
-        if self.sizes.len() > n {
-            return Err(Error::Dimension {
-                expected: n,
-                found: self.sizes.len(),
-            });
+        for &(CoordinateId(i), _) in &self.absolute {
+            check_place("index of the coordinate with its own tolerance", (i, n))?;
         }
         let mut absolute = self.absolute.iter();
         // A size overflows where the relative tolerance is far smaller.
@@ -112,7 +109,7 @@ impl Settings {
     }
 }
 
-fn check_span(span: &Range<f64>) -> Result<(), Error> {
+pub(crate) fn check_span(span: &Range<f64>) -> Result<(), Error> {
     for (what, value) in [("first time", span.start), ("last time", span.end)] {
         if !value.is_finite() {
             return Err(argument(what, value, "finite"));
@@ -121,10 +118,18 @@ fn check_span(span: &Range<f64>) -> Result<(), Error> {
     if span.end < span.start {
         return Err(argument("last time", span.end, "not before the first"));
     }
+    let lasts = span.end - span.start;
+    if !lasts.is_finite() {
+        return Err(argument("last time less the first", lasts, "finite"));
+    }
     Ok(())
 }
 
-fn check_start<T: Scalar>(d: &Description, start: &State<T>, time: f64) -> Result<(), Error> {
+pub(crate) fn check_start<T: Scalar>(
+    d: &Description,
+    start: &State<T>,
+    time: f64,
+) -> Result<(), Error> {
     for (what, numbers) in [
         ("position at the start", &start.q),
         ("velocity at the start", &start.v),

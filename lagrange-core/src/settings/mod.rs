@@ -2,7 +2,7 @@
 
 mod check;
 
-pub(crate) use check::is_single;
+pub(crate) use check::{check_span, check_start, is_single};
 
 use crate::dynamics::Equations;
 use crate::effects::Effects;

@@ -268,8 +268,8 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
     /// that what is fixed lifts or moves.
     ///
     /// # Errors
-    /// [`Error::Projection`] if there is none, with the row that cannot be satisfied; [`Error::Dimension`] if `reference` or `fixed`
-    /// belongs to another system.
+    /// [`Error::Projection`] if there is none, with the row that cannot be satisfied; [`Error::Dimension`] if `reference`
+    /// belongs to another system, [`Error::Argument`] if `fixed` does, and [`Error::Domain`] for what is not finite.
     pub fn consistent(
         &self,
         time: f64,

@@ -244,10 +244,16 @@ impl<T: Scalar> Trajectory<T> {
     /// It is not: [`record(false)`](crate::Simulation::record) was asked for.
     pub fn check_recorded(&self) -> Result<(), Error> {
         if self.recorded {
-            Ok(())
+            self.check_dimension()
         } else {
             Err(Error::NotRecorded)
         }
+    }
+
+    /// Whether the states are those of the system: not where a run was refused because its start is not.
+    fn check_dimension(&self) -> Result<(), Error> {
+        let n = self.description().coordinates.len();
+        self.start.check_dimension(n)
     }
 
     /// The table of names and places of the system.

@@ -130,9 +130,10 @@ impl<'a, T: Scalar> Sampler<'a, T> {
     /// The segment with time `t`, s, and the part of it; `None` if the run made no step.
     ///
     /// # Errors
-    /// [`Error::OutsideTrajectory`].
+    /// [`Error::OutsideTrajectory`], and [`Error::Dimension`] if the run was refused because of its start.
     pub(super) fn locate(&self, t: f64) -> Result<Option<(usize, T)>, Error> {
         let trajectory = self.trajectory;
+        trajectory.check_dimension()?;
         let (first, last) = (trajectory.first_time(), trajectory.last_time());
         if !(first..=last).contains(&t) {
             return Err(Error::OutsideTrajectory {

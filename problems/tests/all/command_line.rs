@@ -342,6 +342,24 @@ fn forces_that_are_open_are_told_with_what_hangs_on_them() {
 }
 
 #[test]
+fn outputs_without_a_value_are_told() {
+    let folder = folder("outputs without a value");
+    let fall = "coordinates(x),
+        kinetic = der(x)^2/2,
+        potential = 10*x,
+        observe(height = sqrt(x)),
+        observe(speed = abs(der(x))),
+        start(go: x = 5),
+        until = 2,";
+    // It is at the ground after a second.
+    fs::write(folder.join("fall.lagrange"), fall).expect("a file");
+    let output = lagrange_in(&folder, &["run", "fall.lagrange"]);
+    let story = text(&output.stdout);
+    let told = "No finite number: `height` at t = 2.000000 s.";
+    assert!(story.contains(told), "{story}");
+}
+
+#[test]
 fn of_many_branches_a_story_names_the_first() {
     let folder = folder("many branches");
     let wall = "coordinates(x),

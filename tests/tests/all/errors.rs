@@ -20,6 +20,63 @@ fn fails(start: State<f64>, span: core::ops::Range<f64>) -> Error {
         .error
 }
 
+/// The trajectory of a run that was refused for its start has nothing to be read, which is an error as well.
+#[test]
+fn starts_of_another_dimension_can_be_read_from_no_trajectory() {
+    for (q, v) in [(1, 0), (1, 1), (5, 5), (2, 3)] {
+        let failure = Simulation::new(&shell())
+            .run(State::new(vec![1.0; q], vec![0.0; v]), 0.0..1.0)
+            .expect_err("two coordinates");
+        let trajectory = failure.trajectory;
+        let dimension = |error: Error| matches!(error, Error::Dimension { expected: 2, .. });
+        assert!(dimension(failure.error));
+        let sampled = trajectory.sampler().at(trajectory.last_time());
+        assert!(sampled.is_err_and(dimension));
+        assert!(trajectory.ledger().is_err_and(dimension));
+        assert!(trajectory.verify(1).is_err_and(dimension));
+    }
+}
+
+#[test]
+fn items_of_another_system_cannot_be_left_out() {
+    let items: [Item; 3] = [
+        ForceId(9).into(),
+        ContactId(9).into(),
+        ConstraintId(9).into(),
+    ];
+    for item in items {
+        let scene = shell();
+        let failure = Simulation::new(&scene)
+            .effects(Effects::all().without(item))
+            .run(State::new(vec![1.0, 0.1], vec![0.0; 2]), 0.0..1.0)
+            .expect_err("no such item");
+        assert!(
+            matches!(failure.error, Error::Argument { value: 9.0, .. }),
+            "{failure}"
+        );
+    }
+}
+
+#[test]
+fn what_a_state_is_to_be_consistent_with_is_checked() {
+    let scene = shell();
+    let given = State::new(vec![1.0, 0.1], vec![0.0; 2]);
+    let with = |fixed, time| Simulation::new(&scene).consistent(time, &given, &fixed);
+    let fixed = FixedComponents::default;
+    let [r, theta] = [CoordinateId(0), CoordinateId(1)];
+    assert!(with(fixed().q(theta, 0.3), 0.0).is_ok());
+    for number in [f64::NAN, f64::INFINITY] {
+        let refused = with(fixed().q(theta, number), 0.0);
+        assert!(matches!(refused, Err(Error::Domain { item: "theta", .. })));
+        let refused = with(fixed().v(r, number), 0.0);
+        assert!(matches!(refused, Err(Error::Domain { item: "r", .. })));
+        let refused = with(fixed(), number);
+        assert!(matches!(refused, Err(Error::Argument { .. })));
+    }
+    let refused = with(fixed().q(CoordinateId(7), 1.0), 0.0);
+    assert!(matches!(refused, Err(Error::Argument { value: 7.0, .. })));
+}
+
 #[test]
 fn a_start_inside_the_shell_is_refused_with_its_depth() {
     let error = fails(State::new(vec![0.9, 0.1], vec![0.0; 2]), 0.0..1.0);
@@ -128,6 +185,13 @@ fn arguments_are_checked() {
         fails(good(), 1.0..0.0),
         Error::Argument {
             what: "last time",
+            ..
+        }
+    ));
+    assert!(matches!(
+        fails(good(), -f64::MAX..f64::MAX),
+        Error::Argument {
+            what: "last time less the first",
             ..
         }
     ));
@@ -422,6 +486,34 @@ fn inertia_is_judged_where_the_constraints_leave_motion() {
     let error = refused(&body(-2.0));
     assert!(
         matches!(&error, Error::Domain { what: "inertia", fields, .. } if fields[..] == [("inertia[1]", -2.0)]),
+        "{error}"
+    );
+}
+
+/// A disc that a cone brakes: the steeper its flanks, the more their friction holds.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, turn),
+    kinetic = (der(x)^2 + der(turn)^2)/2,
+    potential = 5*x,
+    contact(cone: x >= 0),
+    friction(lining on cone: slip = der(turn), static = mu/sine, kinetic = 0.9*mu/sine),
+    start(pressed: der(turn) = 1),
+)]
+struct Cone {
+    mu: f64,
+    sine: f64,
+}
+
+#[test]
+fn a_coefficient_that_is_no_finite_number_is_refused_with_its_fields() {
+    let cone = |sine| Cone { mu: 0.1, sine };
+    let run = Simulation::new(&cone(0.5)).run(cone(0.5).at(Cone::PRESSED), 0.0..0.1);
+    let slows = run.expect("a cone").final_state().v[1];
+    agree("rate", slows, 1.0 - 0.9 * 0.1 / 0.5 * 5.0 * 0.1, 1e-12);
+    let error = refused(&cone(0.0));
+    assert!(
+        matches!(&error, Error::Domain { item: "lining", value: f64::INFINITY, fields, .. } if fields.contains(&("sine", 0.0))),
         "{error}"
     );
 }

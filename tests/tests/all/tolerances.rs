@@ -100,6 +100,6 @@ fn a_tolerance_that_is_none_is_refused() {
     let run = simulation.run(TINY.at(Oscillators::DISPLACED), 0.0..1.0);
     assert!(matches!(
         run.expect_err("no coordinate").error,
-        Error::Dimension { .. }
+        Error::Argument { value: 2.0, .. }
     ));
 }

@@ -302,6 +302,16 @@ impl Outcome {
             })
     }
 
+    /// The outputs that are no finite numbers at some sample, and the time of the first of these, s.
+    pub fn without_value(&self) -> Vec<(&'static str, f64)> {
+        let outputs = self.description.observes.iter().enumerate();
+        let found = outputs.filter_map(|(i, output)| {
+            let first = self.samples.iter().find(|s| !s.observes[i].is_finite())?;
+            Some((output.name, first.time))
+        });
+        found.collect()
+    }
+
     /// When steps were bounded by stability, and what that means, if they were.
     pub fn stiffness(&self) -> Option<String> {
         let (first, last) = (self.stiff.first()?, self.stiff.last()?);

@@ -45,6 +45,18 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
             open.join(", ")
         )?;
     }
+    let without = outcome.without_value();
+    if !without.is_empty() {
+        let told = |(output, first): &(&str, f64)| {
+            format!("`{output}` at t = {} s", time(*first, outcome.lasts()))
+        };
+        let told: Vec<String> = without.iter().map(told).collect();
+        writeln!(
+            out,
+            "\nNo finite number: {}. The expression leaves its domain there.",
+            told.join(", ")
+        )?;
+    }
     if let Some(choice) = choices(outcome) {
         writeln!(out, "\n{choice}")?;
     }
