@@ -845,21 +845,24 @@ struct Relay {
     push: f64,
 }
 
+/// On its way, and where it begins at its goal.
 #[test]
 fn a_relay_that_has_no_mode_is_told_no_causes_of_contacts() {
-    let failure = Simulation::new(&Relay {
-        goal: 0.5,
-        push: 2.0,
-    })
-    .run(State::new(vec![0.0], vec![0.0]), 0.0..4.0)
-    .expect_err("no mode");
-    assert!(matches!(failure.error, Error::NoMode { .. }), "{failure}");
-    let told = failure.to_string();
-    assert!(told.contains("a controller that switches"), "{told}");
-    assert!(
-        !told.contains("contact") && !told.contains("Painlevé"),
-        "{told}"
-    );
+    for start in [0.0, 0.5] {
+        let failure = Simulation::new(&Relay {
+            goal: 0.5,
+            push: 2.0,
+        })
+        .run(State::new(vec![start], vec![0.0]), 0.0..4.0)
+        .expect_err("no mode");
+        assert!(matches!(failure.error, Error::NoMode { .. }), "{failure}");
+        let told = failure.to_string();
+        assert!(told.contains("a controller that switches"), "{told}");
+        assert!(
+            !told.contains("contact") && !told.contains("Painlevé"),
+            "{told}"
+        );
+    }
 }
 
 /// A point held at the origin by a condition that is a square.

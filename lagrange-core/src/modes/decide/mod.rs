@@ -484,6 +484,8 @@ fn concerned(d: &'static Description, facts: &SwitchFacts, present: &Mode) -> &'
     let slides = |f: &FrictionMode| matches!(f, FrictionMode::Slip(_));
     let slides = present.frictions.iter().position(slides);
     let sliding = slides.map(|f| d.frictions[f].name);
-    let found = located.or(resting).or(touching).or(sliding);
+    let balanced = facts.balanced.iter().position(|b| *b);
+    let condition = balanced.map(|b| d.branches[b].then);
+    let found = located.or(resting).or(touching).or(sliding).or(condition);
     found.unwrap_or(d.name)
 }
