@@ -72,7 +72,7 @@ impl Sizes {
     fn take_followers<T: Scalar>(&mut self, dynamics: &Dynamics<T>) {
         let d = dynamics.description();
         let mut idle: Vec<usize> = (0..self.mobility.len())
-            .filter(|&j| self.mobility[j] == 0.0 && !self.is_of_attitude(j))
+            .filter(|&j| self.mobility[j] == 0.0 && self.attitude_of(j).is_none())
             .collect();
         let number = |place: ValueRef| dynamics.motion(place).value();
         while !idle.is_empty() {
@@ -202,9 +202,7 @@ impl Sizes {
     /// The largest mobility that forces on coordinate `j` are measured with: what would change the length of a quaternion moves nothing, though the real part
     /// of one near its unit has hardly any inertia.
     fn most_moved(&self, j: usize) -> f64 {
-        let mut quaternions = self.quaternions.iter();
-        let of = quaternions.find(|[first, _]| j.wrapping_sub(*first) < QUATERNION);
-        let Some(&[first, _]) = of else {
+        let Some(first) = self.attitude_of(j) else {
             return f64::INFINITY;
         };
         let turns = self.mobility[first..first + QUATERNION].iter();
@@ -212,9 +210,10 @@ impl Sizes {
         LIGHTEST * heaviest.fold(f64::INFINITY, |least, m| m.min(least))
     }
 
-    fn is_of_attitude(&self, j: usize) -> bool {
-        let mut quaternions = self.quaternions.iter();
-        quaternions.any(|&[first, _]| j.wrapping_sub(first) < QUATERNION)
+    /// The first coordinate of the quaternion that coordinate `j` is of.
+    fn attitude_of(&self, j: usize) -> Option<usize> {
+        let mut firsts = self.quaternions.iter().map(|&[first, _]| first);
+        firsts.find(|first| j.wrapping_sub(*first) < QUATERNION)
     }
 
     /// Compliance of a row: its acceleration by a force of 1 along it.
@@ -224,12 +223,11 @@ impl Sizes {
         let parts = rows[row]
             .jacobian
             .iter()
-            .filter(|&&(j, _)| !self.is_of_attitude(j));
+            .filter(|&&(j, _)| self.attitude_of(j).is_none());
         let parts = parts.map(|&(j, place)| number(place).powi(2) * self.mobility[j]);
         let mut compliance: f64 = parts.sum();
         for &[first, length] in &self.quaternions {
-            let own = part_of_quaternion(row, first, dynamics);
-            let turns = turning(length, first, own, dynamics);
+            let turns = turning(row, [first, length], dynamics);
             for (k, along) in turns.into_iter().enumerate() {
                 compliance += along * along * self.mobility[first + k];
             }
@@ -286,19 +284,18 @@ fn part_of_quaternion<T: Scalar>(
     part
 }
 
-/// What of forces on a quaternion turns the body: what would change its length, which a row keeps, is no part of it.
+/// What of a row's Jacobian turns a body: what would change the length of its quaternion, which another row keeps, is no part of it.
 fn turning<T: Scalar>(
-    length: usize,
-    first: usize,
-    forces: [f64; QUATERNION],
+    row: usize,
+    [first, length]: [usize; 2],
     dynamics: &Dynamics<T>,
 ) -> [f64; QUATERNION] {
-    let grows = part_of_quaternion(length, first, dynamics);
+    let [own, grows] = [row, length].map(|row| part_of_quaternion(row, first, dynamics));
     let dot = |a: [f64; QUATERNION], b: [f64; QUATERNION]| -> f64 {
         a.iter().zip(b).map(|(a, b)| a * b).sum()
     };
-    let share = dot(forces, grows) / dot(grows, grows).max(f64::MIN_POSITIVE);
-    [0, 1, 2, 3].map(|k| forces[k] - share * grows[k])
+    let share = dot(own, grows) / dot(grows, grows).max(f64::MIN_POSITIVE);
+    [0, 1, 2, 3].map(|k| own[k] - share * grows[k])
 }
 
 /// Size of what the force of each row that acts holds in balance in the equation that says it best: forcing, inertia and other forces; of a

@@ -9,7 +9,7 @@ use crate::dynamics::{Dynamics, EvaluationError, Residual, row_name};
 use crate::error::{Error, Level};
 use crate::integrate::Tolerance;
 use crate::mode::{FrictionMode, Mode};
-use crate::state::{FixedComponents, State};
+use crate::state::State;
 
 /// Velocities are changed by no more than this, relative to their size, unless a start is to be moved.
 const MOST_CHANGE: f64 = 1e-6;
@@ -177,19 +177,16 @@ fn project_onto<T: Scalar>(
     moved.map_err(|e| Error::from_evaluation(e, t.value(), mode, dynamics.description()))
 }
 
-/// See [`crate::Simulation::consistent`]. `begun` is the mode in which the motion begins in `reference`, if it does.
+/// See [`crate::Simulation::consistent`]. `state` is `reference` with the numbers that are `held`; `begun` is the mode in which the motion begins in `reference`, if it does.
 pub fn consistent<T: Scalar>(
     dynamics: &mut Dynamics<T>,
     time: f64,
     tolerance: Tolerance<'_>,
     reference: &State<T>,
-    fixed: &FixedComponents<T>,
+    (state, held): (&State<T>, &[Vec<bool>; 2]),
     begun: Option<&Mode>,
 ) -> Result<State<T>, Error> {
     let d = dynamics.description();
-    reference.check_dimension(d.coordinates.len())?;
-    let mut state = reference.clone();
-    let held = fixed.write(&mut state)?;
     domain::check_parameters(dynamics, time)?;
     let t = T::from_f64(time);
     let mut status = ConstraintStatus::new(d);
@@ -205,8 +202,8 @@ pub fn consistent<T: Scalar>(
         dynamics,
         t,
         reference,
-        state: &state,
-        held: &held,
+        state,
+        held,
     };
     let outcome = match project.onto(&mode) {
         Err(_) => {

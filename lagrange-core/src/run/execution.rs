@@ -180,12 +180,13 @@ impl<T: Scalar> Run<T> {
         check_span(&(time..time))?;
         reference.check_dimension(d.coordinates.len())?;
         let mut given = reference.clone();
-        fixed.write(&mut given)?;
+        let held = fixed.write(&mut given)?;
         check_start(d, &given, time)?;
         let begun = self.mode_at(time, reference);
         let tolerance = self.settings.per_step();
         let dynamics = &mut self.dynamics;
         dynamics.restart();
+        let fixed = (&given, &held);
         start::consistent(dynamics, time, tolerance, reference, fixed, begun.as_ref())
     }
 
