@@ -86,8 +86,8 @@ fn the_emitted_rust_parses() {
     }
     // What the declaration names keeps its name.
     for part in [
-        "p_mass = self.mass;",
-        "q_theta.sin_cos()",
+        "p_mass_ = self.mass;",
+        "q_theta_.sin_cos()",
         "a_theta",
         "v_phi",
     ] {

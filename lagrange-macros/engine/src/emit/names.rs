@@ -8,9 +8,10 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 use std::collections::BTreeSet;
 
-/// A local variable.
+/// A local variable. It ends in `_`: rustc takes a pattern that is called as a `const c` of the user for that constant, and warns of a
+/// `p` beside the user's `ρ`.
 pub fn local(name: &str) -> Ident {
-    Ident::new(name, Span::mixed_site())
+    Ident::new(&format!("{name}_"), Span::mixed_site())
 }
 
 /// A name that is not hygienic: a method, a type parameter, `_`.

@@ -2,7 +2,7 @@
 
 use super::emit;
 use super::encoded::Writer;
-use proc_macro2::TokenStream;
+use proc_macro2::{TokenStream, TokenTree};
 use quote::quote;
 
 fn declared(input: TokenStream) -> crate::model::Declared {
@@ -134,9 +134,9 @@ fn no_local_hides_a_declared_name() {
         struct Chain {}
     };
     let emitted = crate::expand(declaration).to_string();
-    assert!(emitted.contains("let dq_x ="));
+    assert!(emitted.contains("let dq_x_ ="));
     for name in ["x", "x_k", "x_u", "x_earlier", "x_inverse"] {
-        for bound in [format!("let q_{name} ="), format!("let mut q_{name} =")] {
+        for bound in [format!("let q_{name}_ ="), format!("let mut q_{name}_ =")] {
             assert!(!emitted.contains(&bound), "{bound}");
         }
     }
@@ -162,4 +162,52 @@ fn only_inertias_that_vary_are_tested_for_vanishing() {
     };
     assert!(!tests(quote!(mass / 2 * (der(x) ^ 2 + der(y) ^ 2))));
     assert!(tests(quote!(mass / 2 * (der(x) ^ 2 + x ^ 2 * der(y) ^ 2))));
+}
+
+/// All identifiers, inside groups as well.
+fn identifiers(tokens: TokenStream) -> Vec<String> {
+    let of = |token| match token {
+        TokenTree::Ident(ident) => vec![ident.to_string()],
+        TokenTree::Group(group) => identifiers(group.stream()),
+        TokenTree::Punct(_) | TokenTree::Literal(_) => Vec::new(),
+    };
+    tokens.into_iter().flat_map(of).collect()
+}
+
+/// A struct whose names are Greek letters, for which rustc looks for letters like them; as a text, or it would find them here.
+const GREEK: &str = "#[lagrange(
+    crate = ::lg,
+    coordinates(ρ, ν),
+    kinetic = μ/2 * (der(ρ)^2 + der(ν)^2),
+    potential = μ * exp(ρ) * sin(ν),
+    contact(κ: ρ >= 0),
+    friction(φ on κ: slip = der(ν), static = 1),
+    observe(ψ = der(ρ)),
+    start(τ: ν = 1),
+)]
+struct Σ { μ: f64 }";
+
+/// rustc warns of a `p` beside a `ρ` and of a `v` beside a `ν`; the type parameter of emitted functions is the only letter.
+#[test]
+fn no_emitted_name_looks_like_a_greek_letter() {
+    let letters = identifiers(crate::expand(GREEK.parse().expect("tokens")))
+        .into_iter()
+        .filter(|name| name.len() == 1);
+    let letters: Vec<String> = letters.collect();
+    assert!(
+        letters.iter().all(|name| name == "N" || name == "_"),
+        "{letters:?}"
+    );
+}
+
+/// A dependency may be renamed.
+#[test]
+fn another_path_to_the_core_is_the_only_one() {
+    let wrong = GREEK.replace("exp(ρ)", "exp(x)");
+    for declaration in [GREEK, &wrong] {
+        let declaration = declaration.parse().expect("tokens");
+        let emitted = identifiers(crate::expand(declaration));
+        assert!(emitted.contains(&"lg".to_owned()));
+        assert!(!emitted.contains(&"lagrange_core".to_owned()));
+    }
 }

@@ -52,9 +52,10 @@ impl Elaboration<'_> {
                 .report(Code::DuplicateName, name, &[&text, &first.kind.text()]);
             return None;
         }
-        if kind.has_handle() {
+        if kind.has_handle() || kind == Kind::Output {
             let handle = shouting(text);
-            if CONSTANTS.contains(&handle.as_str()) {
+            // An output that is called as a constant of all systems has no handle.
+            if kind.has_handle() && CONSTANTS.contains(&handle.as_str()) {
                 self.sink
                     .report(Code::ConstantOfSystems, name, &[&text, &handle]);
             }
