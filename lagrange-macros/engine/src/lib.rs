@@ -159,7 +159,7 @@ fn planned(declaration: &Declaration, sink: &mut Diagnostics) -> Option<(Program
     }
     match equations.map(|(equations, scope)| (plan::plan(equations), scope)) {
         Some((program, _)) if program.equations.system.pool.overflowed() => {
-            sink.report(Code::Overflow, &declaration.name, &[]);
+            sink.report(Code::Overflow, &declaration.name, &[&"the equations"]);
             None
         }
         Some((mut program, scope)) => {

@@ -1,6 +1,5 @@
 //! Where names are declared, for messages about a run.
 
-use super::without::identity;
 use super::{Declaration, ItemKind, Name};
 
 impl Declaration {
@@ -12,7 +11,7 @@ impl Declaration {
                 .iter()
                 .map(|coordinate| &coordinate.name)
                 .collect(),
-            _ => Vec::from_iter(identity(item).0),
+            _ => Vec::from_iter(item.name()),
         });
         let place = |name: &Name| {
             let start = name.ident.span().start();

@@ -141,7 +141,12 @@ impl Display for Decimal {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let digits = self.digits.to_string();
         if self.exponent.unsigned_abs() > 38 {
-            return write!(f, "{digits}e{}", self.exponent);
+            // The point stands where people write it, behind the first digit.
+            let sign = usize::from(self.digits < 0);
+            let (first, part) = digits.split_at(sign + 1);
+            let point = if part.is_empty() { "" } else { "." };
+            let exponent = i64::from(self.exponent) + part.len() as i64;
+            return write!(f, "{first}{point}{part}e{exponent}");
         }
         let Ok(places) = usize::try_from(-i64::from(self.exponent)) else {
             return write!(f, "{digits}{:0<width$}", "", width = self.exponent as usize);

@@ -29,8 +29,15 @@ impl Declaration {
     }
 }
 
+impl Item {
+    /// Its name, if it can be left out.
+    pub fn name(&self) -> Option<&Name> {
+        identity(self).0
+    }
+}
+
 /// The name of an item that can be left out, and what it acts together with.
-pub(super) fn identity(item: &Item) -> (Option<&Name>, &[Reference]) {
+fn identity(item: &Item) -> (Option<&Name>, &[Reference]) {
     match &item.kind {
         ItemKind::Kinetic(energy) | ItemKind::Potential(energy) => {
             (energy.head.as_ref().map(|head| &head.name), &[])

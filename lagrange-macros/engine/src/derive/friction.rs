@@ -39,6 +39,7 @@ pub(super) fn frictions(sheet: &mut Sheet) -> Vec<Friction<OutputId>> {
             coefficients_need: need,
         });
         row += components;
+        sheet.derived_of(sheet.system.frictions[i].name.clone());
     }
     frictions
 }

@@ -32,9 +32,11 @@ pub(super) fn loads(sheet: &mut Sheet) -> Loads {
     };
     for i in 0..sheet.system.forces.len() {
         force(sheet, i, &mut loads);
+        sheet.derived_of(sheet.system.forces[i].name.clone());
     }
     for i in 0..sheet.system.dissipations.len() {
         dissipation(sheet, i, &mut loads);
+        sheet.derived_of(sheet.system.dissipations[i].name.clone());
     }
     loads
 }

@@ -114,6 +114,7 @@ fn derived(system: System, sink: &mut Diagnostics) -> Option<Equations> {
         .iter()
         .map(|group| euler_lagrange::derive(&mut sheet.system.pool, &sheet.x, group))
         .collect();
+    sheet.derived_of_energies();
     let rows = rows::rows(&mut sheet);
     let contacts = rows::contacts(&mut sheet);
     let frictions = friction::frictions(&mut sheet);
@@ -128,9 +129,14 @@ fn derived(system: System, sink: &mut Diagnostics) -> Option<Equations> {
         .chain(loads.forcing.iter().map(|&(_, _, term)| term))
         .collect();
     let cyclic = cyclic::cyclic(&mut sheet, &inertias, &others);
+    let mass = mass_matrix(&mut sheet, &inertias);
+    let forcing = forcing(&mut sheet, &inertias, &loads);
+    let energy = energy::energies(&mut sheet, &inertias);
+    let momenta = energy::momenta(&mut sheet, &inertias);
+    sheet.derived_of_energies();
     let structure = Structure {
-        mass: mass_matrix(&mut sheet, &inertias),
-        forcing: forcing(&mut sheet, &inertias, &loads),
+        mass,
+        forcing,
         rows,
         couplings: loads.couplings,
         kinetic: sheet.needs.kinetic.clone(),
@@ -139,8 +145,8 @@ fn derived(system: System, sink: &mut Diagnostics) -> Option<Equations> {
         frictions,
         forces: loads.forces,
         dissipations: loads.dissipations,
-        energy: energy::energies(&mut sheet, &inertias),
-        momenta: energy::momenta(&mut sheet, &inertias),
+        energy,
+        momenta,
         observes: outputs::observes(&mut sheet),
         stops: outputs::stops(&mut sheet),
         marks: outputs::marks(&mut sheet),
@@ -149,8 +155,7 @@ fn derived(system: System, sink: &mut Diagnostics) -> Option<Equations> {
     };
     // Of equations that are not finished nothing can be said.
     let unfinished = sheet.system.pool.is_full();
-    let regular =
-        unfinished || regular::check(&sheet.system, &inertias, &structure, &sheet.outputs, sink);
+    let regular = unfinished || regular::check(&sheet, &inertias, &structure, sink);
     if !regular {
         return None;
     }

@@ -2,22 +2,25 @@
 
 use super::sheet::Sheet;
 use super::{Branch, NeedId, OutputId, Stage};
+use crate::model::ItemName;
 use crate::sorted::SortedSet;
 use crate::symbolic::{ExprId, Symbol};
 
 /// Per observe: (value, need).
 pub(super) fn observes(sheet: &mut Sheet) -> Vec<(OutputId, NeedId)> {
-    let items: Vec<(String, ExprId)> = sheet
+    let items: Vec<(ItemName, ExprId)> = sheet
         .system
         .observes
         .iter()
-        .map(|o| (o.name.text.clone(), o.value))
+        .map(|o| (o.name.clone(), o.value))
         .collect();
     let needs = sheet.needs.observes.clone();
     let mut observes = Vec::new();
     for ((name, value), need) in items.into_iter().zip(needs) {
         let value = sheet.reported(value);
-        observes.push((sheet.report(format!("observe[{name}]"), need, value), need));
+        let label = format!("observe[{}]", name.text);
+        observes.push((sheet.report(label, need, value), need));
+        sheet.derived_of(name);
     }
     observes
 }
@@ -28,7 +31,7 @@ pub(super) fn stops(sheet: &mut Sheet) -> Vec<(Vec<OutputId>, NeedId)> {
         .system
         .stops
         .iter()
-        .map(|s| (s.name.text.clone(), s.terms.clone()))
+        .map(|s| (s.name.clone(), s.terms.clone()))
         .collect();
     let needs = sheet.needs.stops.clone();
     watches(sheet, "stop", items, needs)
@@ -40,7 +43,7 @@ pub(super) fn marks(sheet: &mut Sheet) -> Vec<(Vec<OutputId>, NeedId)> {
         .system
         .marks
         .iter()
-        .map(|m| (m.name.text.clone(), m.terms.clone()))
+        .map(|m| (m.name.clone(), m.terms.clone()))
         .collect();
     let needs = sheet.needs.marks.clone();
     watches(sheet, "mark", items, needs)
@@ -49,7 +52,7 @@ pub(super) fn marks(sheet: &mut Sheet) -> Vec<(Vec<OutputId>, NeedId)> {
 fn watches(
     sheet: &mut Sheet,
     kind: &str,
-    items: Vec<(String, Vec<ExprId>)>,
+    items: Vec<(ItemName, Vec<ExprId>)>,
     needs: Vec<NeedId>,
 ) -> Vec<(Vec<OutputId>, NeedId)> {
     let mut watches = Vec::new();
@@ -57,8 +60,9 @@ fn watches(
         let mut outputs = Vec::new();
         for (k, term) in terms.into_iter().enumerate() {
             let term = sheet.reported(term);
-            outputs.push(sheet.report(format!("{kind}[{name}, {k}]"), need, term));
+            outputs.push(sheet.report(format!("{kind}[{}, {k}]", name.text), need, term));
         }
+        sheet.derived_of(name);
         watches.push((outputs, need));
     }
     watches

@@ -1,6 +1,7 @@
 //! What can be seen to be singular before any number is known.
 
 use super::euler_lagrange::Inertia;
+use super::sheet::Sheet;
 use super::{Output, OutputId, Structure};
 use crate::diagnostics::{Code, Diagnostics};
 use crate::model::System;
@@ -18,12 +19,12 @@ const MOST_COORDINATES: usize = 60;
 /// * Impacts need M free of velocities.
 /// * Exact numbers that overflowed make every form unreliable.
 pub(super) fn check(
-    system: &System,
+    sheet: &Sheet,
     inertias: &[Inertia],
     structure: &Structure<OutputId>,
-    outputs: &[Output],
     sink: &mut Diagnostics,
 ) -> bool {
+    let (system, outputs) = (&sheet.system, &sheet.outputs);
     let before = sink.count();
     let inert: SortedSet<usize> = structure
         .mass
@@ -53,7 +54,11 @@ pub(super) fn check(
         quadratic(system, inertias, sink);
     }
     if system.pool.overflowed() {
-        sink.report(Code::Overflow, system.name.span(), &[]);
+        let (at, name) = match &sheet.outgrown {
+            Some(item) => (item.span, format!("`{}`", item.text)),
+            None => (system.name.span(), "the equations".to_owned()),
+        };
+        sink.report(Code::Overflow, at, &[&name]);
     }
     sink.count() == before
 }

@@ -13,7 +13,7 @@
 use super::forms::{Variables, cheapest};
 use super::sheet::Sheet;
 use super::{Contact, NeedId, OutputId, Row};
-use crate::model::{Level, Restitution};
+use crate::model::{ItemName, Level, Restitution};
 use crate::symbolic::{ExprId, Pool};
 
 /// The expressions of one row.
@@ -31,16 +31,17 @@ pub(super) fn rows(sheet: &mut Sheet) -> Vec<Row<OutputId>> {
         Position(ExprId),
         Velocity(ExprId),
     }
-    let mut sources: Vec<(String, &str, Source)> = Vec::new();
+    let mut sources: Vec<(ItemName, String, &str, Source)> = Vec::new();
     for c in &sheet.system.constraints {
         let source = match c.level {
             Level::Position => Source::Position(c.residual),
             Level::Velocity => Source::Velocity(c.residual),
         };
-        sources.push((c.name.text.clone(), "rate", source));
+        sources.push((c.name.clone(), c.name.text.clone(), "rate", source));
     }
     for c in &sheet.system.contacts {
-        sources.push((c.name.text.clone(), "rate", Source::Position(c.gap)));
+        let source = Source::Position(c.gap);
+        sources.push((c.name.clone(), c.name.text.clone(), "rate", source));
     }
     for f in &sheet.system.frictions {
         for (k, &(slip, _)) in f.slip.iter().enumerate() {
@@ -48,17 +49,18 @@ pub(super) fn rows(sheet: &mut Sheet) -> Vec<Row<OutputId>> {
                 1 => f.name.text.clone(),
                 _ => format!("{}.{k}", f.name.text),
             };
-            sources.push((name, "slip", Source::Velocity(slip)));
+            sources.push((f.name.clone(), name, "slip", Source::Velocity(slip)));
         }
     }
     let mut rows = Vec::new();
-    for (index, (name, velocity, source)) in sources.into_iter().enumerate() {
+    for (index, (item, name, velocity, source)) in sources.into_iter().enumerate() {
         let (pool, x) = (&mut sheet.system.pool, &sheet.x);
         let form = match source {
             Source::Position(g) => position_level(pool, x, g),
             Source::Velocity(s) => velocity_level(pool, x, s),
         };
         rows.push(write(sheet, &name, velocity, sheet.needs.rows[index], form));
+        sheet.derived_of(item);
     }
     rows
 }
@@ -85,6 +87,7 @@ pub(super) fn contacts(sheet: &mut Sheet) -> Vec<Contact<OutputId>> {
             restitution_need,
             region: region.map(|e| simple("region", position, e)),
         });
+        sheet.derived_of(sheet.system.contacts[i].name.clone());
     }
     contacts
 }

@@ -3,7 +3,7 @@
 use super::forms::Variables;
 use super::needs::{Needs, allocate};
 use super::{NeedId, Output, OutputId, Stage};
-use crate::model::System;
+use crate::model::{ItemName, System};
 use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Symbol};
 
@@ -13,6 +13,8 @@ pub(super) struct Sheet {
     pub x: Variables,
     pub needs: Needs,
     pub outputs: Vec<Output>,
+    /// The first item whose exact numbers have outgrown the digits that are kept.
+    pub outgrown: Option<ItemName>,
 }
 
 impl Sheet {
@@ -23,7 +25,21 @@ impl Sheet {
             needs: allocate(&system),
             system,
             outputs: Vec::new(),
+            outgrown: None,
         }
+    }
+
+    /// Notes whether exact numbers have outgrown their digits in what has just been derived of this item.
+    pub fn derived_of(&mut self, item: ItemName) {
+        if self.outgrown.is_none() && self.system.pool.overflowed() {
+            self.outgrown = Some(item);
+        }
+    }
+
+    /// The same of the energies, which are told by the first.
+    pub fn derived_of_energies(&mut self) {
+        let first = self.system.kinetic.first().map(|term| term.name.clone());
+        first.into_iter().for_each(|item| self.derived_of(item));
     }
 
     /// Adds an output; terms of one need are added up, zeros left out.

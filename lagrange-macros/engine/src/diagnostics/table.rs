@@ -41,7 +41,7 @@ table! {
     SingleEquals "E006" "`=` where an equation is expected" "an equation is written with two: `a == b`";
     NumberSuffix "E007" "`{0}` is not a number" "{1}";
     NumberForm "E008" "`{0}` is not a number of the language" "write decimal digits: `12`, `0.5`, `1e-3`";
-    NumberSize "E009" "`{0}` cannot be kept exactly" "a number in an expression has at most 38 digits, and a parameter is a double";
+    NumberSize "E009" "`{0}` cannot be kept exactly" "a number in an expression has at most 38 digits: make it a parameter, which is a double";
     UnknownItem "E010" "`{0}` is not an item" "{1}";
     ComparisonExpected "E011" "expected a comparison" "write {0}";
     ComparisonAsValue "E012" "a comparison is not a value" "`if(a >= b, x, y)` chooses between values; `stop`, `mark`, `contact` and `constraint` take comparisons";
@@ -96,7 +96,7 @@ table! {
     NoSuchMember "E309" "`{0}` has no member `{1}`" "{2}";
     EmptyRange "E310" "the range {0}..{1} is empty" "the upper bound must be larger than the lower one";
     TooMany "E311" "{0} elements are too many" "a declaration may unroll to {1}";
-    Overflow "E312" "the exact numbers here outgrow 38 digits" "make such numbers parameters";
+    Overflow "E312" "the exact numbers of {0} outgrow 38 digits" "make such numbers parameters";
     ListProduct "E313" "the product of two lists has no single meaning" "write `dot(a, b)`, `cross(a, b)`, or single elements";
 
     NoValue "E314" "`{0}` has no value" "the numbers are outside of where it is defined";
@@ -130,6 +130,7 @@ table! {
     KineticAtRest "E515" "{0}" "a kinetic energy is made of `der(…)`; an energy of position belongs in `potential`, with the opposite sign";
     Bearing "E516" "{0}" "{1}";
     NoRest "E517" "this Lagrangian has no value where nothing moves" "its value at rest says what is potential energy: declare `kinetic = …` and `potential = …` in its place";
+    PointHeld "E518" "this point cannot move in as many directions as it has coordinates" "the gap has no slope in the others: name the point by coordinates that move freely, as in `at x`, or leave `at` out where the gap is itself a distance";
 
     NoInertia "E601" "the coordinate `{0}` has no inertia" "no kinetic energy contains `der({0})`, and no constraint ties it: add its kinetic energy, tie it with `constraint(name: der({0}) == …)`, or remove it";
     EquationCount "E602" "{0} equations for {1} unknowns" "{2}";

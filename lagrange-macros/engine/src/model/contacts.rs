@@ -110,7 +110,24 @@ impl Elaboration<'_> {
                     .collect()
             })
             .collect();
-        let right: Vec<ExprId> = jacobian.iter().map(|row| dot(pool, row, &slope)).collect();
+        let Some(normal) = self.gradient(&jacobian, &slope) else {
+            let moves = |row: &Vec<ExprId>| row.iter().any(|&e| !self.system.pool.is_zero(e));
+            let moving: Vec<Vec<ExprId>> = jacobian.iter().filter(|r| moves(r)).cloned().collect();
+            let code = match self.gradient(&moving, &slope) {
+                Some(_) => Code::PointHeld,
+                None => Code::PointElsewhere,
+            };
+            self.sink.report(code, point.extent, &[]);
+            return None;
+        };
+        let factor = norm(&mut self.system.pool, &normal);
+        Some(self.system.pool.simplify(factor))
+    }
+
+    /// n with aᵀ = Jᵀ n, if there is one and only one, for J by rows and a.
+    fn gradient(&mut self, jacobian: &[Vec<ExprId>], slope: &[ExprId]) -> Option<Vec<ExprId>> {
+        let pool = &mut self.system.pool;
+        let right: Vec<ExprId> = jacobian.iter().map(|row| dot(pool, row, slope)).collect();
         let gram: Vec<Vec<ExprId>> = jacobian
             .iter()
             .map(|row| jacobian.iter().map(|other| dot(pool, row, other)).collect())
@@ -119,24 +136,18 @@ impl Elaboration<'_> {
             .iter()
             .map(|row| row.iter().map(|&e| pool.simplify(e)).collect())
             .collect();
-        let Some(normal) = self.solve(&gram, &right) else {
-            self.sink.report(Code::PointElsewhere, point.extent, &[]);
-            return None;
-        };
+        let normal = self.solve(&gram, &right)?;
         let pool = &mut self.system.pool;
-        let residuals: Vec<ExprId> = (0..moved.len())
-            .map(|j| {
+        let residuals: Vec<ExprId> = slope
+            .iter()
+            .enumerate()
+            .map(|(j, &slope)| {
                 let column: Vec<ExprId> = jacobian.iter().map(|row| row[j]).collect();
                 let reached = dot(pool, &column, &normal);
-                pool.sub(reached, slope[j])
+                pool.sub(reached, slope)
             })
             .collect();
-        if !self.vanish(&residuals) {
-            self.sink.report(Code::PointElsewhere, point.extent, &[]);
-            return None;
-        }
-        let factor = norm(&mut self.system.pool, &normal);
-        Some(self.system.pool.simplify(factor))
+        self.vanish(&residuals).then_some(normal)
     }
 
     /// x with A x = b for a symmetric A of order up to 3, by Cramer's rule.

@@ -178,7 +178,10 @@ impl<'a> Elaboration<'a> {
             (Pass::Watches, ItemKind::Mark(watch)) => self.watch(Kind::Mark, watch),
             _ => {}
         }
-        self.check_overflow(item.keyword);
+        let name = item
+            .name()
+            .map_or("this item".to_owned(), |name| format!("`{}`", name.text));
+        self.check_overflow(item.keyword, &name);
     }
 
     /// Runs `body` for every element of an item; `body` gives the element's place in the system's list.
@@ -246,7 +249,7 @@ impl<'a> Elaboration<'a> {
         };
         (self.indices, self.slip) = (indices, slip);
         self.dropped |= found.is_none();
-        self.check_overflow(head.name.span());
+        self.check_overflow(head.name.span(), &format!("`{}`", head.name.text));
         let meaning = match found {
             None => Meaning::Poisoned,
             Some((value, lower)) => Meaning::Value {
@@ -329,10 +332,10 @@ impl<'a> Elaboration<'a> {
     }
 
     /// Exact numbers that did not fit make every form doubtful: reported where it first happens.
-    fn check_overflow(&mut self, at: Span) {
+    fn check_overflow(&mut self, at: Span, name: &str) {
         if self.system.pool.overflowed() && !self.overflowed {
             self.overflowed = true;
-            self.sink.report(Code::Overflow, at, &[]);
+            self.sink.report(Code::Overflow, at, &[&name]);
         }
     }
 

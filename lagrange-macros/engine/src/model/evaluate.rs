@@ -34,7 +34,8 @@ impl Elaboration<'_> {
         let value = self.form(expr, context);
         if self.system.pool.overflowed() && !self.overflowed {
             self.overflowed = true;
-            self.sink.report(Code::Overflow, expr.extent, &[]);
+            let name = format!("`{expr}`");
+            self.sink.report(Code::Overflow, expr.extent, &[&name]);
         }
         value
     }

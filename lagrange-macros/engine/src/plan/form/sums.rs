@@ -136,9 +136,14 @@ impl Former<'_> {
         for number in bare {
             *votes.get_or_default(number) += 1;
         }
+        // A quotient that outgrows exact numbers is worth nothing.
+        let divides = |number: Rational| {
+            let mut all = parts.iter();
+            all.all(|(n, _)| n.checked_div(number).is_some())
+        };
         let mut best: Option<(Rational, usize)> = None;
         for (number, count) in votes {
-            if best.is_none_or(|(_, most)| count > most) {
+            if best.is_none_or(|(_, most)| count > most) && divides(number) {
                 best = Some((number, count));
             }
         }

@@ -105,3 +105,32 @@ fn what_is_not_asked_for_does_not_run() {
     let with_slip = program.operations(Stage::Motion, &[1 | 1 << slip.0]);
     assert_eq!(with_slip - program.operations(Stage::Motion, &[1]), 2);
 }
+
+/// A coin in plain numbers: a number that would be taken out of a sum outgrows what is kept exactly, and is left in it.
+#[test]
+fn numbers_stay_in_a_sum_where_their_quotients_outgrow_what_is_exact() {
+    let coin = "#[lagrange(
+        coordinates(p[3]), attitude(b: q),
+        define(
+            n = [b.axes[0][2], b.axes[1][2], b.axes[2][2]], s = sqrt(n[0]^2 + n[1]^2),
+            arm = (-0.159*n[0]/s)*b.axes[0] + (-0.159*n[1]/s)*b.axes[1] + [0, 0, -0.0618],
+            u = der(p) + cross(b.space_rate, arm)),
+        kinetic = 0.1233/2*dot(der(p), der(p)) + 0.00183/2*b.body_rate[0]^2 + 0.00183/2*b.body_rate[1]^2 + 0.003181/2*b.body_rate[2]^2,
+        potential = 0.1233*9.81*p[2],
+        contact(f: p[2] - 0.159*s - 0.0618 >= 0),
+        friction(k on f: slip = (u[0], u[1]), static = 0.0669),
+        start(a: p = [0, 0, height], der(p) = [1.3194, -0.2912, -0.603], b.turn = (0.0713, -0.1045, -0.1749), b.body_rate = (7.9415, -6.5102, -19.1853)),
+    )]
+    struct Coin { height: f64 }";
+    let program = crate::program(coin.parse().expect("tokens")).unwrap_or_else(|e| panic!("{e}"));
+    let mut dice = Dice::new(7);
+    let values = inputs(&program.equations.system, Stage::Report)
+        .into_iter()
+        .map(|symbol| (symbol, dice.number()))
+        .collect();
+    let held = Selection {
+        needs: &[u64::MAX],
+        branches: &[0],
+    };
+    assert!(compare(&program, &values, held) > 30);
+}
