@@ -92,11 +92,7 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         let (first, last) = (trajectory.first_time(), trajectory.last_time());
         if !trajectory.recorded {
             return match t {
-                _ if t == last => self.evaluate(
-                    trajectory.last_time,
-                    trajectory.final_mode(),
-                    &trajectory.last,
-                ),
+                _ if t == last => self.evaluate_end(),
                 _ if t == first => self.evaluate(
                     trajectory.first_time,
                     &trajectory.modes[0],
@@ -106,7 +102,7 @@ impl<'a, T: Scalar> Sampler<'a, T> {
             };
         }
         match self.locate(t)? {
-            None => self.evaluate(T::from_f64(t), &trajectory.modes[0], &trajectory.start),
+            None => self.evaluate_end(),
             Some((index, s)) => {
                 let segment = &trajectory.segments[index];
                 let mode = &trajectory.modes[segment.mode];
@@ -176,9 +172,26 @@ impl<'a, T: Scalar> Sampler<'a, T> {
     pub(crate) fn evaluate_after(&mut self, event: &Event<T>) -> Result<Instant<T>, Error> {
         let n = self.trajectory.description().coordinates.len();
         event.state_after.check_dimension(n)?;
+        self.evaluate_setting_out(event.time, &event.after, &event.state_after)
+    }
+
+    /// What is at the end of a run: of one without a step just after what has happened.
+    fn evaluate_end(&mut self) -> Result<Instant<T>, Error> {
+        let trajectory = self.trajectory;
+        let time = trajectory.last_time;
+        self.evaluate_setting_out(time, trajectory.final_mode(), &trajectory.last)
+    }
+
+    /// Everything about a state in a mode that begins there.
+    fn evaluate_setting_out(
+        &mut self,
+        t: T,
+        mode: &Mode,
+        state: &State<T>,
+    ) -> Result<Instant<T>, Error> {
         // Slips that begin have the directions of the mode: those of the state are rounding.
-        self.headed = event.after.has_incipient_slip();
-        let instant = self.evaluate(event.time, &event.after, &event.state_after);
+        self.headed = mode.has_incipient_slip();
+        let instant = self.evaluate(t, mode, state);
         self.headed = false;
         instant
     }

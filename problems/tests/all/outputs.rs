@@ -343,3 +343,35 @@ fn no_two_columns_have_one_name() {
     }
     assert!(compared > 3);
 }
+
+/// A run that ends by what happens at its start has both ends, in the mode in which it would go on: the brake holds 1 N of 3 N, and the motion would
+/// begin.
+#[test]
+fn a_run_that_ends_at_its_start_has_a_start_and_an_end() {
+    let folder = folder("ends_at_start");
+    let pulled = |slip: &str| {
+        format!(
+            "coordinates(x, y), kinetic = (der(x)^2 + der(y)^2)/2, force(pull: x = 3), friction(brake: slip = {slip}, limit = 1), \
+             start(held), until = 1"
+        )
+    };
+    for (slip, force) in [("der(x)", "brake"), ("(der(x), der(y))", "brake[0]")] {
+        fs::write(folder.join("pulled.lagrange"), pulled(slip)).expect("a file");
+        let arguments = [
+            "run",
+            "pulled.lagrange",
+            "--end-after",
+            "brake slips",
+            "--format",
+            "json",
+        ];
+        let output = lagrange_in(&folder, &arguments);
+        let told: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        assert_eq!(told["events"].as_array().map(Vec::len), Some(1));
+        for end in ["start", "final"] {
+            assert_eq!(told[end]["time"], 0.0, "{slip}");
+            assert_eq!(told[end]["mode"], told["events"][0]["to"], "{slip}");
+            assert_eq!(told[end]["forces"][force], -1.0, "{slip}");
+        }
+    }
+}

@@ -34,7 +34,7 @@ pub(super) fn samples(trajectory: &Trajectory, times: &[f64]) -> Vec<Sample> {
         vec![Phase {
             from: first,
             to: first,
-            mode: trajectory.final_mode().clone(),
+            mode: trajectory.final_mode().under_way(),
         }]
     };
     let phases = Some(trajectory.phases())
