@@ -297,3 +297,34 @@ fn friction_in_space_loads_and_impulses_have_handles() {
     );
     assert!(closure(&trajectory) < 1e-11);
 }
+
+/// A block on a floor whose gap is told in units of 0.2 m; a rod leans on it with its normal force.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    potential = mass * gravity * y,
+    contact(floor: 5*y >= 0 at (x, y)),
+    force(lean: x = floor/3),
+    observe(normal = floor),
+    start(put),
+)]
+struct Block {
+    mass: f64,
+    gravity: f64,
+}
+
+/// With `at`, the name of a contact is N wherever it is written, as friction takes it; results tell the multiplier of the gap, N/|∂gap/∂p|.
+#[test]
+fn a_contact_at_a_point_is_called_by_its_normal_force() {
+    let block = Block {
+        mass: 2.0,
+        gravity: 10.0,
+    };
+    let run = Simulation::new(&block).run(block.at(Block::PUT), 0.0..1.0);
+    let end = run.expect("a run").sampler().at(1.0).expect("the end");
+    agree("N", end.observe(Block::NORMAL), 20.0, 1e-14);
+    agree("lean", end.load(Block::LEAN), 20.0 / 3.0, 1e-14);
+    agree("x", end.q(Block::X), 20.0 / 3.0 / 2.0 / 2.0, 1e-13);
+    agree("λ", end.force(Block::FLOOR), 4.0, 1e-14);
+}
