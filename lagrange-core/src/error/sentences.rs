@@ -3,6 +3,9 @@
 use super::{Error, Level, NotFinite, Shortest};
 use core::fmt;
 
+/// Times that are farther apart than this, s, leave steps no room.
+const UNRESOLVED: f64 = 1e-6;
+
 /// A number with four digits, with an exponent where it is very small or very large.
 fn short(value: f64) -> String {
     let size = value.abs();
@@ -120,7 +123,8 @@ impl fmt::Display for Error {
             Error::Corner { time, item, rate } => write!(
                 f,
                 "t = {}: the rate of `{item}` jumps to {} where a piecewise expression changes, or where what a root is \
-                 taken of vanishes or an asin or acos ends, and what velocities do at such a corner is not computed; round it, or write each side as a contact of its own",
+                 taken of vanishes or an asin or acos ends, and what velocities do at such a corner is not computed; round it, or, where a gap is the \
+                 smaller of two, write each side as a contact of its own",
                 Shortest(*time),
                 short(*rate)
             ),
@@ -201,8 +205,13 @@ impl fmt::Display for Error {
             ),
             Error::StepTooSmall { time, step, mode } => write!(
                 f,
-                "t = {} ({mode}): the step fell to {step:.1e} s; the motion is singular here or the tolerance is too tight",
-                Shortest(*time)
+                "t = {} ({mode}): the step fell to {step:.1e} s; {}",
+                Shortest(*time),
+                match f64::EPSILON * time.abs() > UNRESOLVED {
+                    true =>
+                        "times as late as this are no closer to one another: count them from a later instant",
+                    false => "the motion is singular here or the tolerance is too tight",
+                }
             ),
             Error::Unbounded {
                 time,

@@ -35,14 +35,30 @@ impl<T: Scalar> Run<T> {
             _ => self
                 .domain_left()
                 .or_else(|| self.steps_too_long())
-                .or_else(|| self.extremal_constraint(&error))
+                .or_else(|| {
+                    let error = self.extremal_constraint(&error)?;
+                    self.take_back();
+                    Some(error)
+                })
                 .or_else(|| self.jammed_contact(&error))
                 .unwrap_or_else(|| self.overflow(error)),
         }
     }
 
-    /// The same error, which says so if numbers overflow where one is not finite.
+    /// The same error, which says so if numbers overflow where one is not finite, or where none solves an impact.
     pub(super) fn overflow(&self, mut error: Error) -> Error {
+        if let Error::NoImpact {
+            time, mode, item, ..
+        } = &mut error
+            && self.is_out_of_range()
+        {
+            return Error::NotFinite {
+                time: *time,
+                mode: core::mem::take(mode),
+                what: format!("the impulse of `{item}`"),
+                cause: NotFinite::Range,
+            };
+        }
         if let Error::NotFinite { cause, .. } = &mut error {
             if self.exponentials_overflow() {
                 *cause = NotFinite::Exponential;

@@ -63,6 +63,15 @@ impl<T: Scalar> Run<T> {
         })
     }
 
+    /// Goes back to the start: a constraint that is extremal there lets go, and what has been told since is no motion.
+    pub(super) fn take_back(&mut self) {
+        let record = &mut self.recorder.trajectory;
+        self.now.t = record.first_time;
+        self.now.state.clone_from(&record.start);
+        self.now.mode.clone_from(&record.modes[0]);
+        record.begin(self.now.t, &self.now.state, &self.now.mode);
+    }
+
     /// Whether constraint `i` has one sign around the start, on what satisfies the others.
     fn is_extremal(&mut self, whole: &mut Dynamics<T>, i: usize) -> bool {
         let d = self.description();

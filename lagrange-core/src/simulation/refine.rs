@@ -8,6 +8,7 @@ use super::runner::Work;
 use crate::arithmetic::{Scalar, epsilon};
 use crate::error::Error;
 use crate::integrate::Method;
+use crate::mode::Mode;
 use crate::precompiled::Runnable;
 use crate::settings::{Goal, Settings};
 use crate::trajectory::{Difference, Estimate, State, Summary};
@@ -123,6 +124,11 @@ impl<T: Runnable> Work<T> {
         span: Range<f64>,
     ) -> Result<(), Error> {
         if !(1e-15..=0.1).contains(&error) {
+            let mut state = start.clone();
+            state.name(self.trajectory.description());
+            let mode = Mode::open(self.trajectory.description());
+            let time = T::from_f64(span.start);
+            self.trajectory.begin(time, &state, &mode);
             return Err(Error::Argument {
                 what: "error",
                 value: error,

@@ -37,6 +37,109 @@ fn starts_of_another_dimension_can_be_read_from_no_trajectory() {
     }
 }
 
+/// A run within an error that means nothing is refused at its start, as every other: its trajectory is no motion of before.
+#[test]
+fn an_error_without_meaning_leaves_the_start() {
+    let scene = shell();
+    let start = State::new(vec![1.0, 0.1], vec![0.0; 2]);
+    let simulation = Simulation::new(&scene).error(0.0);
+    let mut runner = simulation.runner();
+    for time in [0.0, 3.0] {
+        let refused = runner.run(&start, time..time + 1.0).map(|_| ());
+        assert!(matches!(
+            refused,
+            Err(Error::Argument { what: "error", .. })
+        ));
+        let trajectory = runner.trajectory();
+        assert_eq!(trajectory.first_state(), &start);
+        assert_eq!(trajectory.final_state(), &start);
+        assert_eq!(
+            (trajectory.first_time(), trajectory.last_time()),
+            (time, time)
+        );
+    }
+}
+
+/// A rod without length: r² = 0 lets nothing hold the mass, which falls.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2)/2,
+    potential = gravity * y,
+    constraint(rod: x^2 + y^2 == length^2),
+)]
+struct Pinned {
+    length: f64,
+    gravity: f64,
+}
+
+#[test]
+fn what_follows_an_error_of_the_start_is_no_motion() {
+    let pinned = Pinned {
+        length: 0.0,
+        gravity: 9.81,
+    };
+    let start = State::new(vec![0.0; 2], vec![0.0; 2]);
+    let failure = Simulation::new(&pinned).run(&start, 0.0..1.0);
+    let failure = failure.expect_err("nothing holds it");
+    assert!(matches!(failure.error, Error::Singular { time: 0.0, .. }));
+    assert_eq!(failure.trajectory.last_time(), 0.0);
+    assert_eq!(failure.trajectory.final_state(), &start);
+    assert_eq!(failure.trajectory.work().steps, 0);
+}
+
+/// A ball with friction that meets the floor after √(2/g).
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    potential = mass * gravity * y,
+    force(sway: x = mass * cos(t)),
+    contact(floor: y >= 0, restitution = 1/2),
+    friction(grip on floor: slip = der(x), static = 1/3),
+)]
+struct Heavy {
+    mass: f64,
+    gravity: f64,
+}
+
+#[test]
+fn what_is_beyond_all_numbers_is_called_so() {
+    let told = |mass, time: f64| {
+        let heavy = Heavy {
+            mass,
+            gravity: 9.81,
+        };
+        let start = State::new(vec![0.0, 1.0], vec![0.0; 2]);
+        let run = Simulation::new(&heavy).run(start, time..time + 1.0);
+        run.map(|_| ()).map_err(|failure| failure.error)
+    };
+    assert_eq!(told(1.0, 0.0), Ok(()));
+    let impulse = told(1e308, 0.0).expect_err("m v overflows");
+    assert!(
+        matches!(
+            impulse,
+            Error::NotFinite {
+                cause: NotFinite::Range,
+                ..
+            }
+        ),
+        "{impulse}"
+    );
+    // Doubles near 10¹⁵ are an eighth apart.
+    let late = told(1.0, 1e15).expect_err("no time between");
+    assert!(
+        late.to_string().contains("count them from a later instant"),
+        "{late}"
+    );
+    let singular = Error::StepTooSmall {
+        time: 1.0,
+        step: 1e-16,
+        mode: String::new(),
+    };
+    assert!(singular.to_string().contains("tolerance is too tight"));
+}
+
 #[test]
 fn items_of_another_system_cannot_be_left_out() {
     let items: [Item; 3] = [
