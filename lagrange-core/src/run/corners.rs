@@ -9,6 +9,7 @@ use crate::declaration::{Declaration, Evaluator, Gradient, Inputs, Seed};
 use crate::dynamics::{AT_REST, Residual, row_name};
 use crate::effects::{Effects, Item};
 use crate::error::Error;
+use crate::mode::Mode;
 use crate::system::Erased;
 use crate::trajectory::State;
 use core::cmp::Ordering;
@@ -141,14 +142,11 @@ impl<T: Scalar> Run<T> {
         if !self.now.mode.contacts.contains(&false) {
             return Ok(());
         }
-        let gaps = |run: &mut Self| -> Vec<f64> {
-            run.tape_of_all_rows();
-            (0..d.contacts.len()).map(|c| run.gap(c)).collect()
-        };
-        self.dynamics.set_mode(&self.recorder.before.mode);
-        let before = gaps(self);
-        self.dynamics.set_mode(&self.now.mode);
-        let after = gaps(self);
+        let modes = [&self.recorder.before.mode, &self.now.mode].map(Mode::clone);
+        let [before, after] = self.on_both_sides(modes.each_ref(), |run| {
+            let gaps = (0..d.contacts.len()).map(|c| run.gap(c));
+            gaps.collect::<Vec<f64>>()
+        });
         let jumps = (0..d.contacts.len()).find(|&c| {
             let open = !self.now.mode.contacts[c] && !self.now.below[c];
             let takes_part = self.dynamics.effects().includes(d, Item::Contact(c));

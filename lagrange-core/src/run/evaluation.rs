@@ -4,6 +4,7 @@ use super::{Progress, Run};
 use crate::arithmetic::Scalar;
 use crate::dynamics::EvaluationError;
 use crate::error::Error;
+use crate::mode::Mode;
 use crate::trajectory::State;
 
 impl<T: Scalar> Run<T> {
@@ -29,6 +30,19 @@ impl<T: Scalar> Run<T> {
         self.ask_for_all_rows();
         let State { q, v, .. } = &self.now.state;
         self.dynamics.tape(self.now.t, q, v);
+    }
+
+    /// What the numbers of all rows at the present state say in the mode before a change and in that after it, which `dynamics` is left in.
+    pub(super) fn on_both_sides<R>(
+        &mut self,
+        modes: [&Mode; 2],
+        read: impl Fn(&Self) -> R,
+    ) -> [R; 2] {
+        modes.map(|mode| {
+            self.dynamics.set_mode(mode);
+            self.tape_of_all_rows();
+            read(self)
+        })
     }
 
     /// At least the leading coefficients at the present state.

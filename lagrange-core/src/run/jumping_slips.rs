@@ -62,10 +62,8 @@ impl<T: Scalar> Run<T> {
         // The values of all rows take the place of what the decision has left.
         self.switcher.decider.decision.expanded = false;
         self.now.valued = false;
-        self.dynamics.set_mode(&self.now.mode);
-        let before = self.slips();
-        self.dynamics.set_mode(&decided);
-        let after = self.slips();
+        let mode = self.now.mode.clone();
+        let [before, after] = self.on_both_sides([&mode, &decided], Self::slips);
         let frictions = decided.frictions.iter().enumerate();
         let jumped = frictions.filter_map(|(f, acts)| {
             let jumped = after_jump(*acts, &before[f], &after[f])?;
@@ -101,8 +99,7 @@ impl<T: Scalar> Run<T> {
     }
 
     /// The slips at the present state, on the sides that `dynamics` is on.
-    fn slips(&mut self) -> Vec<Slip> {
-        self.tape_of_all_rows();
+    fn slips(&self) -> Vec<Slip> {
         let component = |row: usize| {
             let (rate, size) = self.rate(row);
             (rate, self.settings.tolerance * size.max(1.0))
