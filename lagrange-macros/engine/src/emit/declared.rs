@@ -113,12 +113,12 @@ fn force(force: &Force, core: &TokenStream, writer: &Writer) -> TokenStream {
 /// The terms of those stops or marks that are `known` by their names.
 fn watches(all: &[Watch], known: &[Watch], writer: &Writer) -> Vec<TokenStream> {
     let same = |watch: &Watch| known.iter().find(|k| k.name.text == watch.name.text);
-    let terms = all.iter().map(|watch| match same(watch) {
-        Some(known) => {
+    let terms = all.iter().map(|watch| {
+        let terms = same(watch).map(|known| {
             let terms = known.terms.iter().map(|e| writer.value(*e));
-            quote!(::core::option::Option::Some(&[#(#terms),*]))
-        }
-        None => quote!(::core::option::Option::None),
+            quote!(&[#(#terms),*])
+        });
+        names::option(terms)
     });
     terms.collect()
 }
@@ -271,10 +271,7 @@ impl<'a> Writer<'a> {
 
     /// The same, where there may be none.
     fn option(&self, e: Option<ExprId>) -> TokenStream {
-        match e.map(|e| self.value(e)) {
-            Some(value) => quote!(::core::option::Option::Some(#value)),
-            None => quote!(::core::option::Option::None),
-        }
+        names::option(e.map(|e| self.value(e)))
     }
 
     /// Writes everything that the roots are made of, ascending: operands first. A rate comes after its expression and a

@@ -14,6 +14,7 @@ mod fallback;
 mod handles;
 mod listing;
 mod names;
+mod operation;
 mod scalar;
 #[cfg(test)]
 mod tests;

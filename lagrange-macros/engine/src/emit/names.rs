@@ -5,7 +5,7 @@ use crate::plan::{Coefficient, Operation, OutputMask, Tape, Value, ValueRef};
 use crate::sorted::SortedMap;
 use crate::symbolic::Rational;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
-use quote::quote;
+use quote::{ToTokens, quote};
 use std::collections::BTreeSet;
 
 /// A local variable. It ends in `_`: rustc takes a pattern that is called as a `const c` of the user for that constant, and warns of a
@@ -99,6 +99,14 @@ pub fn f64(number: f64) -> TokenStream {
         quote!(-#size)
     } else {
         quote!(#size)
+    }
+}
+
+/// What may not be there, where `None` and `Some` of the user may be something else.
+pub fn option(value: Option<impl ToTokens>) -> TokenStream {
+    match value {
+        Some(value) => quote!(::core::option::Option::Some(#value)),
+        None => quote!(::core::option::Option::None),
     }
 }
 

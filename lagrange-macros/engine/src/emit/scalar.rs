@@ -1,9 +1,10 @@
 //! Programs on plain scalars: the constants of modes, the starts, and access to the parameters.
 
 use super::names::{self, Locals, local};
+use super::operation::{Notation, expression};
 use crate::model::System;
-use crate::plan::{Mode, Operation, Program, StartTarget, Tape, Value};
-use proc_macro2::TokenStream;
+use crate::plan::{Coefficient, Mode, Operation, Program, StartTarget, Tape, Value};
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 use std::collections::BTreeSet;
 
@@ -162,8 +163,9 @@ fn steps(
     steps: impl Iterator<Item = (Value, Operation)>,
     crossing: &BTreeSet<Value>,
 ) -> TokenStream {
+    let notation = OfScalar { system, locals };
     let lines = steps.map(|(first, operation)| {
-        let result = expression(system, locals, operation);
+        let result = expression(operation, &notation);
         let (one, two) = (locals.value(first), locals.value(Value(first.0 + 1)));
         match (operation.values(), crossing.contains(&first)) {
             (1, false) => quote!(let #one = #result;),
@@ -175,73 +177,31 @@ fn steps(
     quote!(#(#lines)*)
 }
 
-fn expression(system: &System, locals: &Locals, operation: Operation) -> TokenStream {
-    let n = |value| locals.value(value);
-    let fixed = |c| names::coefficient(system, c);
-    let call = |method: &str, x: Value| {
-        let (method, x) = (names::plain(method), n(x));
-        quote!(Scalar::#method(#x))
-    };
-    match operation {
-        Operation::Constant(c) => fixed(c),
-        Operation::Add(x, y) => {
-            let (x, y) = (n(x), n(y));
-            quote!(#x + #y)
-        }
-        Operation::Sub(x, y) => {
-            let (x, y) = (n(x), n(y));
-            quote!(#x - #y)
-        }
-        Operation::Neg(x) => {
-            let x = n(x);
-            quote!(-#x)
-        }
-        Operation::Offset(c, x) => {
-            let (c, x) = (fixed(c), n(x));
-            quote!(#c + #x)
-        }
-        Operation::Scale(c, x) => {
-            let (c, x) = (fixed(c), n(x));
-            quote!(#c * #x)
-        }
-        Operation::Mul(x, y) => {
-            let (x, y) = (n(x), n(y));
-            quote!(#x * #y)
-        }
-        Operation::Square(x) => {
-            let x = n(x);
-            quote!(#x * #x)
-        }
-        Operation::Div(x, y) => {
-            let (x, y) = (n(x), n(y));
-            quote!(#x / #y)
-        }
-        Operation::Ratio(c, x) => {
-            let (c, x) = (fixed(c), n(x));
-            quote!(#c / #x)
-        }
-        Operation::Sqrt(x) => call("sqrt", x),
-        Operation::Powf(x, c) => {
-            let (x, c) = (n(x), names::float(c));
-            quote!(Scalar::powf(#x, #c))
-        }
-        Operation::Exp(x) => call("exp", x),
-        Operation::Ln(x) => call("ln", x),
-        Operation::SinCos(x) => call("sin_cos", x),
-        Operation::SinhCosh(x) => call("sinh_cosh", x),
-        Operation::Tan(x) => call("tan", x),
-        Operation::Tanh(x) => call("tanh", x),
-        Operation::Asin(x) => call("asin", x),
-        Operation::Acos(x) => call("acos", x),
-        Operation::Atan(x) => call("atan", x),
-        Operation::Atan2(y, x) => {
-            let (y, x) = (n(y), n(x));
-            quote!(Scalar::atan2(#y, #x))
-        }
-        Operation::Choose(guard, x, y) => {
-            let (guard, x, y) = (n(guard), n(x), n(y));
-            quote!(if Scalar::value(#guard) >= 0.0 { #x } else { #y })
-        }
-        Operation::Select(..) => unreachable!("only tapes select by branch"),
+/// One number of the type of the parameters; its functions are those of the core, also where `f64` has some of the same names.
+struct OfScalar<'a> {
+    system: &'a System,
+    locals: &'a Locals,
+}
+
+impl Notation for OfScalar<'_> {
+    fn value(&self, value: Value) -> Ident {
+        self.locals.value(value)
+    }
+
+    fn coefficient(&self, coefficient: Coefficient) -> TokenStream {
+        names::coefficient(self.system, coefficient)
+    }
+
+    fn call(&self, function: &str, x: Ident, more: Option<TokenStream>) -> TokenStream {
+        let (function, more) = (names::plain(function), more.into_iter());
+        quote!(Scalar::#function(#x #(, #more)*))
+    }
+
+    fn choice(&self, operation: Operation) -> TokenStream {
+        let Operation::Choose(guard, x, y) = operation else {
+            unreachable!("only tapes select by branch")
+        };
+        let [guard, x, y] = [guard, x, y].map(|value| self.value(value));
+        quote!(if Scalar::value(#guard) >= 0.0 { #x } else { #y })
     }
 }

@@ -19,14 +19,8 @@ impl Writer<'_> {
         let constraints = self.program.equations.system.constraints.iter().enumerate();
         let constraints = constraints.map(|(row, constraint)| {
             let (name, row) = (&constraint.name.text, index(row));
-            let [while_contact, attitude] =
-                [constraint.while_contact, constraint.attitude].map(|place| match place {
-                    Some(place) => {
-                        let place = index(place);
-                        quote!(::core::option::Option::Some(#place))
-                    }
-                    None => quote!(::core::option::Option::None),
-                });
+            let [while_contact, attitude] = [constraint.while_contact, constraint.attitude]
+                .map(|place| names::option(place.map(index)));
             quote! {
                 #core::system::Constraint {
                     name: #name, row: #row, while_contact: #while_contact, attitude: #attitude,

@@ -140,13 +140,7 @@ impl Writer<'_> {
     }
 
     fn maybe(&self, output: Option<OutputId>) -> TokenStream {
-        match output {
-            Some(output) => {
-                let place = self.place(output);
-                quote!(::core::option::Option::Some(#place))
-            }
-            None => quote!(::core::option::Option::None),
-        }
+        names::option(output.map(|output| self.place(output)))
     }
 
     fn parameters(&self) -> Vec<TokenStream> {
@@ -188,12 +182,11 @@ impl Writer<'_> {
     /// The parameters that the kinetic energy's inertia consists of.
     fn inertia(&self) -> TokenStream {
         let equations = &self.program.equations;
-        if equations.system.from_lagrangian {
-            return quote!(::core::option::Option::None);
-        }
-        let entries = equations.structure.mass.iter();
-        let parameters = self.parameters_of(entries.map(|(_, _, entry)| *entry));
-        quote!(::core::option::Option::Some(#parameters))
+        let parameters = (!equations.system.from_lagrangian).then(|| {
+            let entries = equations.structure.mass.iter();
+            self.parameters_of(entries.map(|(_, _, entry)| *entry))
+        });
+        names::option(parameters)
     }
 
     /// The parameters that outputs contain, by index.

@@ -105,10 +105,7 @@ fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> To
         FrictionState::Stick => quote!(Stick),
         FrictionState::Slip(_) => quote!(Slip),
     });
-    let left_out = match mode.mode.left_out.map(index) {
-        Some(constraint) => quote!(::core::option::Option::Some(#constraint)),
-        None => quote!(::core::option::Option::None),
-    };
+    let left_out = names::option(mode.mode.left_out.map(index));
     let system = &program.equations.system;
     let pins = mode.results.pins.iter().map(|&(j, place)| {
         let (j, place) = (index(j), names::place(system, place));

@@ -3,6 +3,7 @@
 use super::super::names::{self, index, local};
 use super::solve::Elimination;
 use super::writer::Writer;
+use crate::emit::operation::Notation;
 use crate::plan::mode::products::{Plan, force_row, zero_row};
 use crate::plan::mode::{ModeProgram, Phase};
 use crate::plan::{Block, OutputMask, Program, Value, ValueRef};

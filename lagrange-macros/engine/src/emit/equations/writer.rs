@@ -1,6 +1,7 @@
 //! Order 0: every operation as a line of Rust on numbers.
 
 use super::super::names::{self, Locals, index, local, plain};
+use super::super::operation::{Notation, expression};
 use crate::model::System;
 use crate::plan::mode::ModeProgram;
 use crate::plan::{Block, Coefficient, Mode, Operation, Step, Value, ValueRef};
@@ -71,25 +72,13 @@ fn locals(system: &System, mode: &ModeProgram) -> Locals {
     Locals::new(state.chain(unknowns).chain(results)).naming_pairs(&mode.tape)
 }
 
-impl<'a> Writer<'a> {
-    /// Of the functions of a mode.
-    pub fn new(system: &System, mode: &'a ModeProgram, declared: BTreeSet<Value>) -> Writer<'a> {
-        Writer {
-            mode,
-            locals: locals(system, mode),
-            number: number(system),
-            declared,
-            sums: sums(mode),
-        }
-    }
-
-    /// The local that holds a value.
-    pub fn value(&self, value: Value) -> Ident {
+/// Numbers of one motion or of several; the trait in scope says what their functions are.
+impl Notation for Writer<'_> {
+    fn value(&self, value: Value) -> Ident {
         self.locals.value(value)
     }
 
-    /// A number that is fixed during a run.
-    pub fn coefficient(&self, coefficient: Coefficient) -> TokenStream {
+    fn coefficient(&self, coefficient: Coefficient) -> TokenStream {
         let number = &self.number;
         match coefficient {
             Coefficient::Number(value) => {
@@ -105,6 +94,33 @@ impl<'a> Writer<'a> {
                 quote!(#c[#at])
             }
             Coefficient::Parameter(_) => unreachable!("a mode reads its own constants only"),
+        }
+    }
+
+    fn call(&self, function: &str, x: Ident, more: Option<TokenStream>) -> TokenStream {
+        let (function, more) = (plain(function), more.into_iter());
+        quote!(#x.#function(#(#more),*))
+    }
+
+    fn choice(&self, operation: Operation) -> TokenStream {
+        let Operation::Select(branch, x, y) = operation else {
+            unreachable!("only starts choose by value")
+        };
+        let (held, branch) = (local("held"), index(branch));
+        let [x, y] = [x, y].map(|value| self.value(value));
+        quote!(if #held.branch(#branch) { #x } else { #y })
+    }
+}
+
+impl<'a> Writer<'a> {
+    /// Of the functions of a mode.
+    pub fn new(system: &System, mode: &'a ModeProgram, declared: BTreeSet<Value>) -> Writer<'a> {
+        Writer {
+            mode,
+            locals: locals(system, mode),
+            number: number(system),
+            declared,
+            sums: sums(mode),
         }
     }
 
@@ -181,7 +197,7 @@ impl<'a> Writer<'a> {
 
     /// A step; its values are bound.
     pub fn step(&self, step: &Step) -> TokenStream {
-        let result = self.operation(step.operation);
+        let result = expression(step.operation, self);
         if step.operation.values() == 1 {
             return self.bind(step.value, result);
         }
@@ -211,61 +227,6 @@ impl<'a> Writer<'a> {
             }
         });
         quote!(#(#lines)*)
-    }
-
-    fn operation(&self, operation: Operation) -> TokenStream {
-        let n = |value| self.value(value);
-        let coefficient = |c| self.coefficient(c);
-        let call = |name: &str, x: Value| {
-            let (name, x) = (plain(name), n(x));
-            quote!(#x.#name())
-        };
-        let infix = |x: TokenStream, sign: TokenStream, y: Value| {
-            let y = n(y);
-            quote!(#x #sign #y)
-        };
-        let value = |x: Value| {
-            let x = n(x);
-            quote!(#x)
-        };
-        match operation {
-            Operation::Constant(c) => coefficient(c),
-            Operation::Add(x, y) => infix(value(x), quote!(+), y),
-            Operation::Sub(x, y) => infix(value(x), quote!(-), y),
-            Operation::Neg(x) => {
-                let x = n(x);
-                quote!(-#x)
-            }
-            Operation::Offset(c, x) => infix(coefficient(c), quote!(+), x),
-            Operation::Scale(c, x) => infix(coefficient(c), quote!(*), x),
-            Operation::Mul(x, y) => infix(value(x), quote!(*), y),
-            Operation::Square(x) => infix(value(x), quote!(*), x),
-            Operation::Div(x, y) => infix(value(x), quote!(/), y),
-            Operation::Ratio(c, x) => infix(coefficient(c), quote!(/), x),
-            Operation::Sqrt(x) => call("sqrt", x),
-            Operation::Powf(x, c) => {
-                let (x, c) = (n(x), names::float(c));
-                quote!(#x.powf(#c))
-            }
-            Operation::Exp(x) => call("exp", x),
-            Operation::Ln(x) => call("ln", x),
-            Operation::SinCos(x) => call("sin_cos", x),
-            Operation::SinhCosh(x) => call("sinh_cosh", x),
-            Operation::Tan(x) => call("tan", x),
-            Operation::Tanh(x) => call("tanh", x),
-            Operation::Asin(x) => call("asin", x),
-            Operation::Acos(x) => call("acos", x),
-            Operation::Atan(x) => call("atan", x),
-            Operation::Atan2(y, x) => {
-                let (y, x) = (n(y), n(x));
-                quote!(#y.atan2(#x))
-            }
-            Operation::Select(branch, x, y) => {
-                let (held, branch, x, y) = (local("held"), index(branch), n(x), n(y));
-                quote!(if #held.branch(#branch) { #x } else { #y })
-            }
-            Operation::Choose(..) => unreachable!("only starts choose by value"),
-        }
     }
 }
 

@@ -5,6 +5,7 @@ use super::rules::needs_auxiliary;
 use crate::emit::equations::solve::Elimination;
 use crate::emit::equations::value;
 use crate::emit::names::{self, index, local};
+use crate::emit::operation::Notation;
 use crate::plan::mode::Phase;
 use crate::plan::mode::products::Row;
 use crate::plan::{Coefficient, Operation, Step, Value, ValueRef};

@@ -6,6 +6,7 @@ use super::{Expansion, sum_coefficient};
 use crate::emit::equations::solve::Elimination;
 use crate::emit::equations::value;
 use crate::emit::names::{self, index, local};
+use crate::emit::operation::Notation;
 use crate::plan::mode::Phase;
 use crate::plan::mode::products::Row;
 use crate::plan::{Block, Mode, Operation, Step, Value};

@@ -2,6 +2,7 @@
 
 use super::Expansion;
 use crate::emit::names::{self, index, local};
+use crate::emit::operation::Notation;
 use crate::plan::{Operation, Step, Value};
 use proc_macro2::TokenStream;
 use quote::quote;
