@@ -25,10 +25,7 @@ impl Elaboration<'_> {
                 on => Some(this.bearers(on)),
             };
             let slip = this.slip(&declared.slip, &name.text);
-            this.slip = slip.as_deref().map(|components| match components {
-                &[(slip, _)] => Value::Scalar(slip),
-                two => Value::List(two.iter().map(|&(e, _)| Value::Scalar(e)).collect()),
-            });
+            this.slip = slip.as_deref().map(slip_as_value);
             let law = this.law(&declared.law);
             this.slip = None;
             let (given, at_rest, sliding) = law?;
@@ -307,6 +304,14 @@ impl Elaboration<'_> {
             found.push((component, self.symbol(&text, Depth::Force)));
         }
         Some(found)
+    }
+}
+
+/// What `slip` stands for in the coefficients of a friction: one value, or a list of two.
+pub(super) fn slip_as_value(components: &[(ExprId, Symbol)]) -> Value {
+    match components {
+        &[(slip, _)] => Value::Scalar(slip),
+        two => Value::List(two.iter().map(|&(e, _)| Value::Scalar(e)).collect()),
     }
 }
 

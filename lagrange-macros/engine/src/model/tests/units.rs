@@ -41,6 +41,10 @@ fn right_units_are_quiet() {
     );
     fine("contact(c: theta >= 0, where y >= l)");
     fine("contact(c: y^2 >= l^2 at y), friction(s on c: slip = der(x), static = a)");
+    fine("friction(s: slip = der(x), normal = m*g, static = if(abs(slip) >= a, 0.1, 0.2))");
+    fine(
+        "contact(c: y >= 0), friction(s on c: slip = (der(x), der(q[0])), static = 0.3, kinetic = if(slip[0] >= a, 0.1, 0.2))",
+    );
     fine(
         "force(p: x = f), force(q1: theta = f*l), force(r: (0, -m*g) at (x, y)), force(s: -f along der(x))",
     );

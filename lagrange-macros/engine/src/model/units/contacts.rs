@@ -7,6 +7,7 @@ use super::shape::{Role, Shape};
 use crate::ast::{Contact, Expr, ExprKind, Friction, FrictionLaw, Reference, Restitution};
 use crate::diagnostics::Code;
 use crate::model::Normal;
+use crate::model::frictions::slip_as_value;
 use crate::model::meaning::Kind;
 use crate::symbolic::Rational;
 
@@ -76,7 +77,10 @@ impl Checker<'_, '_> {
         }
         let slip = self.slips.get(&element).cloned();
         self.names.insert("slip".to_owned(), slip);
+        let components = &self.elaboration.system.frictions.get(element)?.slip;
+        self.elaboration.slip = Some(slip_as_value(components));
         let law = self.friction_law(&friction.law, forces.first()?);
+        self.elaboration.slip = None;
         self.names.remove("slip");
         law
     }
