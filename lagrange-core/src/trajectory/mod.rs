@@ -327,6 +327,11 @@ impl<T: Scalar> Trajectory<T> {
         &self.modes[self.modes.len() - 1]
     }
 
+    /// Whether the mode of this segment is that at the end.
+    fn ends_in_mode_of(&self, segment: usize) -> bool {
+        self.modes[self.segments[segment].mode] == *self.final_mode()
+    }
+
     /// What happened, in order.
     pub fn events(&self) -> &[Event<T>] {
         &self.events
@@ -350,7 +355,7 @@ impl<T: Scalar> Trajectory<T> {
         &self.stiff
     }
 
-    /// The modes with their time intervals.
+    /// The modes with their time intervals; the last one is an instant where the run ends with a switch.
     pub fn phases(&self) -> Vec<Phase> {
         let mut phases: Vec<Phase> = Vec::new();
         let mut last = None;
@@ -374,6 +379,11 @@ impl<T: Scalar> Trajectory<T> {
                 }),
             }
             last = Some(segment.mode);
+        }
+        if self.segments.len() > 0 && !self.ends_in_mode_of(self.segments.len() - 1) {
+            let (from, to) = (self.last_time(), self.last_time());
+            let mode = self.final_mode().under_way();
+            phases.push(Phase { from, to, mode });
         }
         phases
     }

@@ -103,12 +103,16 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         }
         match self.locate(t)? {
             None => self.evaluate_end(),
+            // A run that ends after an event ends in what that leads to.
+            Some((index, _)) if t == last && !trajectory.ends_in_mode_of(index) => {
+                self.evaluate_end()
+            }
             Some((index, s)) => {
                 let segment = &trajectory.segments[index];
                 let mode = &trajectory.modes[segment.mode];
                 let time = T::from_f64(t);
                 let mut state = self.place(index, s)?;
-                if t == last && mode == trajectory.final_mode() {
+                if t == last {
                     // Beside it, the end of the last polynomial is off by rounding.
                     state.clone_from(&trajectory.last);
                 }

@@ -375,3 +375,34 @@ fn a_run_that_ends_at_its_start_has_a_start_and_an_end() {
         }
     }
 }
+
+/// A run that ends after a switch ends in what that leads to: a rope that has gone taut pulls.
+#[test]
+fn a_run_that_ends_after_a_switch_ends_in_the_mode_after_it() {
+    let folder = folder("ends_after_a_switch");
+    // The mass falls half a metre until the rope drags the drum along: with the inertia J/R² of that it falls on, and the rope pulls by what is left
+    // of its weight, m g J/R²/(m + J/R²).
+    let drum = "parameters(m = 5, J = 0.4, R = 0.2), coordinates(y, turn), kinetic = m/2*der(y)^2 + J/2*der(turn)^2, \
+                potential = -m*9.81*y, contact(rope: y - R*turn <= 0.5), start(drop), until = 1";
+    fs::write(folder.join("drum.lagrange"), drum).expect("a file");
+    let (drags, weight) = (0.4 / 0.04, 5.0 * 9.81);
+    let pull = weight * drags / (5.0 + drags);
+    for after in ["rope impact", "rope closed"] {
+        let arguments = [
+            "run",
+            "drum.lagrange",
+            "--end-after",
+            after,
+            "--format",
+            "json",
+        ];
+        let output = lagrange_in(&folder, &arguments);
+        let told: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        assert_eq!(told["final"]["mode"], "rope closed", "{after}");
+        let force = told["final"]["forces"]["rope"].as_f64().expect("a force");
+        assert!(
+            (force - pull).abs() < 1e-9,
+            "{after}: {force} N, not {pull} N"
+        );
+    }
+}

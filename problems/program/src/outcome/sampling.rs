@@ -59,7 +59,7 @@ pub(super) fn samples(trajectory: &Trajectory, times: &[f64]) -> Vec<Sample> {
             let inner = times[after..before].iter().copied();
             for time in iter::once(from).chain(inner).chain(iter::once(to)) {
                 // At a switch a sampler gives what is just after it: what ends there is read a trifle before.
-                let read = if time == to && time < last {
+                let read = if time == to && phase + 1 < phases.len() {
                     just_before(time)
                 } else {
                     time
