@@ -38,9 +38,14 @@ impl<T: Scalar> Equilibrated<T> {
         });
     }
 
+    /// How many rows are independent.
+    pub(crate) fn rank(&self) -> usize {
+        self.lu.rank()
+    }
+
     /// Whether rows depend on each other.
     pub(crate) fn is_deficient(&self) -> bool {
-        self.lu.rank() < self.size
+        self.rank() < self.size
     }
 
     /// Gives each row that depends on others as a combination of those: the row, one of these, and its factor.

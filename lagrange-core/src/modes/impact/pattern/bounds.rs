@@ -5,7 +5,7 @@
 use super::{Pattern, Phase, Slide};
 use crate::arithmetic::Scalar;
 use crate::linear::{Freedom, Rank, least_norm};
-use crate::modes::impact::collision::{Collision, NormalSource};
+use crate::modes::impact::collision::{Collision, FrictionRow, NormalSource};
 use nalgebra::DVector;
 
 /// By so much bounds are kept where they can be, relative, so that rounding does not take the impulses beyond them.
@@ -21,7 +21,8 @@ impl<T: Scalar> Pattern<T> {
             .map(|(i, row)| self.effect(c, i, row))
             .collect();
         let mut shared: Vec<T> = unknowns.map(|&row| self.impulses[row]).collect();
-        let freedom = least_norm(&columns, c.size, Rank::Numerical, &mut shared);
+        let rank = self.rank_of_effects(c);
+        let freedom = least_norm(&columns, c.size, rank, &mut shared);
         // Where nothing sticks, the combination without contacts that would pull does the same.
         if self.slides.contains(&Slide::Stick)
             && let Some(change) = self.change(c, phase, &shared, &freedom)
@@ -32,13 +33,26 @@ impl<T: Scalar> Pattern<T> {
             for (impulse, &more) in shared.iter_mut().zip(&change) {
                 *impulse -= more;
             }
-            least_norm(&columns, c.size, Rank::Numerical, &mut shared);
+            least_norm(&columns, c.size, rank, &mut shared);
             for (impulse, more) in shared.iter_mut().zip(change) {
                 *impulse += more;
             }
         }
         for (&row, impulse) in self.unknowns.iter().zip(shared) {
             self.impulses[row] = impulse;
+        }
+    }
+
+    /// How many effects of the unknowns are independent: as many as their equations, which say what they do to their own rates, unless some bring
+    /// friction along that acts elsewhere.
+    fn rank_of_effects(&self, c: &Collision<T>) -> Rank {
+        let slides = |(rub, slide): (&FrictionRow<T>, &Slide)| {
+            matches!(slide, Slide::Along(_) | Slide::Turning(_))
+                && self.unknowns.contains(&c.bearing_row(rub))
+        };
+        match c.rubs.iter().zip(&self.slides).any(slides) {
+            true => Rank::Numerical,
+            false => Rank::Known(self.factors.rank()),
         }
     }
 

@@ -25,6 +25,8 @@ pub(super) const ROUNDING: f64 = 1e-13;
 pub(super) const TERMS: f64 = 4e-16;
 /// The same for what an impulse does in other rows, beside what it does in its own: it comes from a solution with all inertias.
 const ANSWERS: f64 = 4e-15;
+/// Equations hold that miss no more than so many times what is known of their rates.
+const AGREES: f64 = 10.0;
 
 /// What a friction does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,7 +66,7 @@ pub(super) struct Pattern<T> {
     pub after: Vec<T>,
     /// What rounding leaves of them.
     pub noise: Vec<f64>,
-    /// The law of frictions with two components holds to so many times that.
+    /// Frictions with two components obey their law, and stick, to so many times that.
     pub leeway: f64,
     /// Whether impulses are not determined (they are then the least that contacts and friction allow).
     pub undetermined: bool,
@@ -177,16 +179,31 @@ impl<T: Scalar> Pattern<T> {
         self.share(c, phase);
         self.slide(c);
         self.move_on(c, phase);
-        self.agrees(c, phase)
+        let agrees = self.agrees(c, phase);
+        for &i in &self.unknowns {
+            self.noise[i] = self.noise[i].max(self.missed(c, phase, i));
+        }
+        agrees
     }
 
-    /// Whether the equations hold: those that depend on each other may contradict each other, by more than what rows that are at rest move.
+    /// Whether the equations hold: those that depend on each other may contradict each other, by more than what rows that are at rest move. The
+    /// slips of two feet of a body that lies almost flat do by its tilt, which is an error of the state.
     fn agrees(&self, c: &Collision<T>, phase: &Phase<T>) -> bool {
         let far = |&i: &usize| {
-            let missing = (self.after[i] - aim(c, phase, i)).value().abs();
-            missing > 10.0 * (self.noise[i] + c.strength(i) * c.drift)
+            let turns = |rub: &FrictionRow<T>| rub.components > 1 && rub.rows().contains(&i);
+            let leeway = match c.rubs.iter().any(turns) {
+                true => self.leeway,
+                false => 1.0,
+            };
+            let known = leeway * self.noise[i] + c.strength(i) * c.drift;
+            self.missed(c, phase, i) > AGREES * known
         };
         !self.unknowns.iter().any(far)
+    }
+
+    /// By how much the rate of row `i` misses what it is to be.
+    fn missed(&self, c: &Collision<T>, phase: &Phase<T>, i: usize) -> f64 {
+        (self.after[i] - aim(c, phase, i)).value().abs()
     }
 
     /// Adds to the unknowns what the equations miss.
