@@ -35,6 +35,8 @@ pub struct SwitchFacts {
     pub again: bool,
     /// What evaluation leaves of the forces that have been located as zero, relative to the terms that they are made of.
     pub residue: f64,
+    /// How long the present mode has lasted, or as far as its last step could have gone, s: the time to whose errors an instant is located.
+    pub lasted: f64,
 }
 
 impl SwitchFacts {
@@ -55,6 +57,7 @@ impl SwitchFacts {
         self.touched.clear();
         self.again = false;
         self.residue = 0.0;
+        self.lasted = f64::INFINITY;
     }
 }
 

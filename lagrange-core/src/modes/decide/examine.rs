@@ -7,6 +7,7 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::{AT_REST, Dynamics, EvaluationError, OutputMask};
 use crate::integrate::horner;
 use crate::mode::{FrictionMode, Mode};
+use crate::modes::composite::CompositeGuard;
 use crate::modes::facts::{EvaluationPoint, SwitchContext};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
@@ -179,8 +180,13 @@ impl<T: Scalar> Decider<T> {
         self.decision.expanded = false;
         if dynamics.value(t + later, &place, &speed).is_ok() {
             self.redundant.look(dynamics);
-            if let Some(composite) = self.redundant.critical(BORDER)
-                && composite.value(&self.posed, &Reading::Values(dynamics)) < -KEPT
+            let fallen = |composite: &CompositeGuard| {
+                composite.value(&self.posed, &Reading::Values(dynamics)) < -KEPT
+            };
+            // What the load alone takes away by then is an event to come.
+            let by_load = self.composites.iter().any(fallen);
+            if let Some(composite) = self.redundant.critical(BORDER).filter(|_| !by_load)
+                && fallen(&composite)
             {
                 let composites = core::slice::from_ref(&composite);
                 blame(Guard::Composite(0), composites, &mut self.violated);

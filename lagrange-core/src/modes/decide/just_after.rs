@@ -90,6 +90,8 @@ impl<T: Scalar> Decider<T> {
             let mut series = [0.0; guard::LENGTH];
             let series = &mut series[..=order];
             match self.just_after(guard, order_known, ahead, series) {
+                // What frictions can hold touches zero at most: it was located a little before.
+                Leading::Falls if self.is_of_limits(guard) => self.zeros.push((guard, 2)),
                 Leading::Falls => blame(guard, &self.composites, &mut self.violated),
                 Leading::Rises(0) => {}
                 Leading::Rises(k) => self.zeros.push((guard, k)),
@@ -117,6 +119,11 @@ impl<T: Scalar> Decider<T> {
             return None;
         }
         Some(self.violated.is_empty())
+    }
+
+    /// Whether a guard says only how much frictions can hold.
+    fn is_of_limits(&self, guard: Guard) -> bool {
+        matches!(guard, Guard::Composite(k) if self.composites[k].is_of_limits())
     }
 
     /// How long slips that are under way keep their directions, s: beyond the time in which one of two components may turn or end its series
@@ -215,7 +222,8 @@ impl<T: Scalar> Decider<T> {
         // The residue of a located root, and what follows from it, has the size of the integration error. Everything else is off by what it changes by
         // within the error of the instant.
         let (relative, absolute) = if concerns(guard, &self.composites, here.facts) {
-            ((100.0 * tolerance).clamp(1e-11, 1e-3), here.blur())
+            let known = size_within(series, here.facts.lasted / h) / size;
+            ((100.0 * tolerance).clamp(1e-11, 1e-3) * known, here.blur())
         } else {
             let instant = INSTANT * tolerance;
             (instant.max(1e-13), instant.max(1e-14))
@@ -267,6 +275,13 @@ impl<T: Scalar> Decider<T> {
         });
         sizes.fold(0.0, f64::max)
     }
+}
+
+/// The size of a series up to this part of what it is scaled onto: what moves slowly from now on may be known for far longer than what led to it.
+fn size_within(series: &[f64], part: f64) -> f64 {
+    let powers = core::iter::successors(Some(1.0), |power| Some(power * part.min(1.0)));
+    let terms = series.iter().zip(powers);
+    terms.fold(0.0, |size, (c, power)| f64::max(size, (c * power).abs()))
 }
 
 /// Whether a contact cannot open because others are closed, or a friction cannot slip because others stick: then the mode
