@@ -25,6 +25,8 @@ pub(super) struct Locator<T> {
     pub(super) polynomials: GuardPolynomials,
     /// Guards whose leading coefficients vanish at the start of the coming step.
     pub(super) zeros: Vec<(Guard, usize)>,
+    /// Regions that the motion enters at this instant, on the surface: their edges are where it is, however far projections move it.
+    pub(super) entered: Vec<Guard>,
     /// Whether a gap began at zero with the step that has just ended.
     pub(super) opened: bool,
     /// Whether a gap stays zero although its contact is open, because others hold it there.
@@ -64,6 +66,7 @@ impl<T: Scalar> Locator<T> {
         Locator {
             polynomials: GuardPolynomials::new(d, &settings.effects),
             zeros: Vec::new(),
+            entered: Vec::new(),
             opened: false,
             lies: false,
             at_limit: Vec::new(),
@@ -87,6 +90,7 @@ impl<T: Scalar> Locator<T> {
         let watches = self.stop_below.iter_mut().chain(&mut self.mark_below);
         watches.for_each(|terms| terms.fill(false));
         self.mark_passed.fill(None);
+        self.entered.clear();
         self.lies = false;
         self.polynomials.composites.clear();
         self.polynomials.held.clear();

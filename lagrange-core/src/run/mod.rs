@@ -11,6 +11,7 @@ mod evaluation;
 mod execution;
 mod extremal;
 mod failure;
+mod fall;
 mod feasible;
 mod guard_polynomials;
 mod hidden;

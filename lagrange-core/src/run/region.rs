@@ -43,12 +43,12 @@ impl<T: Scalar> Run<T> {
         };
         // Just after the edge has been located, its first coefficient is zero.
         let is_in = |curve| value(curve, s) >= 0.0;
-        !self.leaves(curve, s) && self.judged(edge, curve).is_none_or(is_in)
+        !self.leaves(c, curve, s) && self.judged(edge, curve).is_none_or(is_in)
     }
 
-    /// Whether the motion is at an edge, of this curve, and goes out.
-    fn leaves(&self, edge: &[f64], s: f64) -> bool {
-        value(edge, s).abs() <= self.touching() && slope(edge, s) < 0.0
+    /// Whether the motion is at the edge of contact `c`, of this curve, and goes out.
+    fn leaves(&self, c: usize, edge: &[f64], s: f64) -> bool {
+        value(edge, s).abs() <= self.touching(c) && slope(edge, s) < 0.0
     }
 
     /// Where the motion enters the region of an open contact whose gap vanishes there: (part of the step, half width).
@@ -60,12 +60,12 @@ impl<T: Scalar> Run<T> {
         let root = find_root(self.judged(edge, curve)?, Break)?;
         let enters = root.direction == Direction::Rising && !root.grazing;
         let (s, width) = self.place(edge, &root);
-        (enters && value(gap, s).abs() <= self.touching()).then_some((s, width))
+        (enters && value(gap, s).abs() <= self.touching(c)).then_some((s, width))
     }
 
     /// A gap of this size vanishes.
-    fn touching(&self) -> f64 {
-        self.settings.tolerance.max(1e-13)
+    fn touching(&self, c: usize) -> f64 {
+        self.settings.tolerance.max(1e-13) * self.locator.polynomials.extents[c]
     }
 
     /// Remembers which surfaces the motion is below at part `end` of the step.
@@ -94,12 +94,12 @@ impl<T: Scalar> Run<T> {
                 guard,
                 &self.dynamics,
             ));
-            let passed = gap < -blur || !self.within_region(guard, end);
+            let passed = gap < -blur.max(self.touching(c)) || !self.within_region(guard, end);
             // What reaches the edge and the surface at once passes by it.
             let edge = self.locator.polynomials.of(Guard::Region(c));
-            let passes = gap.abs() <= self.touching()
+            let passes = gap.abs() <= self.touching(c)
                 && slope(curve, end) < 0.0
-                && edge.is_some_and(|edge| self.leaves(edge, end));
+                && edge.is_some_and(|edge| self.leaves(c, edge, end));
             passing.extend(passes.then_some(c));
             below[c] = passes || gap < 0.0 && (below[c] || passed);
         }
@@ -107,19 +107,20 @@ impl<T: Scalar> Run<T> {
         self.locator.passing = passing;
     }
 
+    /// Whether the motion has come to the edge of a region.
+    pub(super) fn is_at_edge(&self) -> bool {
+        let mut fallen = self.locator.fallen.iter();
+        fallen.any(|guard| matches!(guard, Guard::Region(_)))
+    }
+
     /// At an edge the next surface may begin without a step: closes contacts whose gaps vanish where their regions begin. So they do where
     /// the motion has come onto the edge of a surface.
     pub(super) fn hand_over(&mut self) {
-        let d = self.description();
-        if !self
-            .locator
-            .fallen
-            .iter()
-            .any(|g| matches!(g, Guard::Region(_)))
-        {
+        self.locator.entered.clear();
+        if !self.is_at_edge() {
             return;
         }
-        let small = self.touching();
+        let d = self.description();
         for (c, contact) in d.contacts.iter().enumerate() {
             let Some(region) = contact.region else {
                 continue;
@@ -133,9 +134,11 @@ impl<T: Scalar> Run<T> {
             }
             let number = |place: ValueRef| self.dynamics.motion(place).value();
             let gap = number(d.rows[contact.row].position.unwrap_or(ValueRef::Zero));
+            let small = self.touching(c);
             if gap.abs() <= small && number(region) >= -small {
                 self.switcher.status.facts.touching[c] = true;
                 self.switcher.status.facts.arriving[c] = true;
+                self.locator.entered.push(Guard::Region(c));
             }
         }
     }

@@ -116,6 +116,8 @@ impl<T: Scalar> Run<T> {
         let Some(method) = &mut self.stepper.other else {
             return Ok(h);
         };
+        // The stages of the step leave other numbers than those of the present state, where it may yet end.
+        self.now.valued = false;
         let (from, tolerance) = (self.now.start(), self.settings.per_step());
         let (dynamics, step) = (&mut self.dynamics, &mut self.stepper.step);
         match method.step(dynamics, from, h, tolerance, step) {

@@ -6,6 +6,7 @@
 //! passes near zero is followed through.
 
 use super::Run;
+use super::fall::{Fall, dot};
 use super::instant::derivatives;
 use super::stepping::{JUST_BEFORE, Stepper};
 use crate::arithmetic::Scalar;
@@ -285,34 +286,13 @@ impl<T: Scalar> Run<T> {
         if guard::fades(f, &self.dynamics) {
             return None;
         }
-        let mut slips = [[0.0; 2]; 2];
-        for (slip, s) in slips.iter_mut().zip([JUST_BEFORE * end, end]) {
-            self.locator
-                .earlier
-                .copy_from_slice(&self.stepper.scratch.v);
-            self.state_at_end(s);
-            let State { q, v, .. } = &self.stepper.scratch;
-            let time = self.stepper.step.time(T::from_f64(s));
-            self.dynamics.tape(time, q, v);
-            *slip = self.dynamics.slip(f).map(|s| s.value());
-        }
-        let [before, now] = slips;
-        let change = [now[0] - before[0], now[1] - before[1]];
-        let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
-        let (speed, fall) = (dot(now, now).sqrt(), dot(change, change).sqrt());
+        let fall = self.fall_of_slip(f, end);
         let size = self.dynamics.slip_size(f, &self.stepper.scratch.v);
-        let rounding = ROUNDING * size;
-        if !(fall > 0.0) || (speed > rounding && dot(now, change) > 0.0) {
+        let grows = fall.speed() > ROUNDING * size && fall.grows();
+        if !(fall.length() > 0.0) || grows {
             return None;
         }
-        let parts = speed / fall;
-        let changes = |(i, (now, before)): (usize, (&T, &T))| {
-            let (now, before) = (now.value(), before.value());
-            (now - before).abs() * parts > allowed * self.settings.allowed(i, now.abs())
-        };
-        let velocities = self.stepper.scratch.v.iter();
-        let mut velocities = velocities.zip(&self.locator.earlier).enumerate();
-        if speed > NOTHING * size && velocities.any(changes) {
+        if fall.speed() > NOTHING * size && self.still_changes(f, &fall, allowed) {
             return None;
         }
         let Self {
@@ -329,9 +309,44 @@ impl<T: Scalar> Run<T> {
         Some(Rest {
             friction: f,
             along,
-            left: -dot(now, change) / (fall * fall) * interval,
-            slope: dot(along, change) / interval,
+            left: fall.left() * interval,
+            slope: dot(along, fall.change()) / interval,
         })
+    }
+
+    /// The slip of friction `f` at part `end` of the step, where `scratch` is then, and just before it, from where `earlier` has the velocities.
+    fn fall_of_slip(&mut self, f: usize, end: f64) -> Fall {
+        let mut slips = [[0.0; 2]; 2];
+        for (slip, s) in slips.iter_mut().zip([JUST_BEFORE * end, end]) {
+            self.locator
+                .earlier
+                .copy_from_slice(&self.stepper.scratch.v);
+            self.state_at_end(s);
+            let State { q, v, .. } = &self.stepper.scratch;
+            let time = self.stepper.step.time(T::from_f64(s));
+            self.dynamics.tape(time, q, v);
+            *slip = self.dynamics.slip(f).map(|s| s.value());
+        }
+        let [before, now] = slips;
+        Fall { before, now }
+    }
+
+    /// Whether more changes until the slip of friction `f` ends than so many tolerances: of the velocities, and of the slip itself, which falls by time
+    /// alone where what slips is held.
+    fn still_changes(&self, f: usize, fall: &Fall, allowed: f64) -> bool {
+        let v = &self.stepper.scratch.v;
+        let parts = fall.speed() / fall.length();
+        let of_velocity = |j: usize| self.settings.allowed(j, v[j].value().abs());
+        let mut velocities = v.iter().zip(&self.locator.earlier).enumerate();
+        if velocities.any(|(j, (now, before))| {
+            (*now - *before).value().abs() * parts > allowed * of_velocity(j)
+        }) {
+            return true;
+        }
+        let rows = self.description().frictions[f].rows();
+        let of_rows = rows.map(|row| self.dynamics.size_of_row(row, of_velocity));
+        let by_time = self.settings.tolerance * self.dynamics.slip_size(f, v);
+        fall.missed() > allowed * (of_rows.sum::<f64>() + by_time)
     }
 
     /// How far forces are off, relative, because the directions of slips are: what rounding leaves of one that has nearly vanished. The
@@ -351,7 +366,11 @@ impl<T: Scalar> Run<T> {
             self.locator.resting.frictions[rest.friction] = FrictionMode::Stick;
         }
         self.dynamics.set_mode(&self.locator.resting);
-        self.project(true)?;
+        // What holds a slip otherwise leaves it what time makes of it at an instant that is off by rounding.
+        self.switcher.before_holding.clone_from(&self.now.state);
+        if self.project(true).is_err() {
+            self.now.state.clone_from(&self.switcher.before_holding);
+        }
         self.rest_of_necessity();
         self.locator.resting.clone_from(&self.now.mode);
         for rest in &self.locator.rests {

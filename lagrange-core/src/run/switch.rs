@@ -50,6 +50,8 @@ pub(super) struct Switcher<T> {
     pub(super) redundant: RedundantForces<T>,
     /// Modes of the switches since time last advanced.
     pub(super) stuck: Pool<Mode>,
+    /// When the present mode began, s.
+    pub(super) since: f64,
 }
 
 impl<T: Scalar> Switcher<T> {
@@ -71,6 +73,7 @@ impl<T: Scalar> Switcher<T> {
             table: Table::default(),
             redundant: RedundantForces::default(),
             stuck: Pool::default(),
+            since: 0.0,
         }
     }
 
@@ -96,6 +99,9 @@ impl<T: Scalar> Run<T> {
         if roots && fallen.any(|guard| matches!(guard, Guard::Slip(_))) {
             self.drop_rounding_of_velocities();
         }
+        if self.is_at_edge() {
+            self.hold_rows();
+        }
         if !self.now.valued {
             self.evaluate()?;
         }
@@ -108,6 +114,12 @@ impl<T: Scalar> Run<T> {
             .decider
             .residue(&mut self.dynamics, &self.now.mode, &self.locator.fallen)
             .max(of_composites);
+        facts.lasted = self
+            .stepper
+            .step
+            .h
+            .value()
+            .max(self.now.t.value() - self.switcher.since);
         facts.touching.copy_from_slice(&self.now.mode.contacts);
         for (resting, friction) in facts.resting.iter_mut().zip(&self.now.mode.frictions) {
             *resting = friction.rests();
@@ -190,7 +202,10 @@ impl<T: Scalar> Run<T> {
             .fallen
             .iter()
             .filter(|g| matches!(g, Guard::Region(_)));
+        let edges = edges.chain(&self.locator.entered);
         self.locator.zeros.extend(edges.map(|&edge| (edge, 1)));
+        self.locator.entered.clear();
+        self.switcher.since = self.now.t.value();
         self.set_mode_decided();
         self.refuse_derivatives_of_directions()?;
         self.let_lie();

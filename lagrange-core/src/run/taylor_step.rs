@@ -4,8 +4,8 @@ use super::Run;
 use super::hit::Hit;
 use super::singular::{LEAST_DEGREE, MOST_RETREATS, RETREAT, UNDECIDED};
 use super::stepping::{JUST_BEFORE, Stepper};
-use crate::arithmetic::Scalar;
 use crate::arithmetic::quad::{Quad, QuadBody, side_by_side};
+use crate::arithmetic::{Scalar, epsilon};
 use crate::dynamics::Dynamics;
 use crate::error::Error;
 use crate::integrate::taylor::{self, Verdict};
@@ -27,6 +27,12 @@ const LOWER: usize = 4;
 
 /// So many breaks of guards in a row are no instants that can be passed: a slip that fades has more than a thousand before it rests.
 const MOST_BREAKS: usize = 100_000;
+
+/// Guards that ask for steps shorter than this share of what the motion allows may be lost in rounding.
+const SHORT: f64 = 1e-3;
+
+/// So many units of rounding are what positions are off by at least.
+const ULPS: f64 = 16.0;
 
 /// Steps are shorter where directions of slips are off by more than this share.
 const ASTRAY: f64 = 1e-2;
@@ -285,27 +291,63 @@ impl<T: Scalar> Run<T> {
 
     /// The same of the guards.
     pub(super) fn guard_defect(&mut self, hit: &Hit, looked: f64) -> f64 {
-        let defect = self.guard_defect_beyond(0.0, hit, looked);
+        let defect = self.guard_defect_beyond([0.0; 2], hit, looked);
         if defect <= 1.0 {
             return defect;
         }
         let blur = self.blur_of_directions().max(self.locator.blur);
-        match blur {
+        let defect = match blur {
             0.0 => defect,
-            blur => self.guard_defect_beyond(blur, hit, looked),
+            blur => self.guard_defect_beyond([blur, 0.0], hit, looked),
+        };
+        let h = self.stepper.step.h.value();
+        let short = |(moves, _)| h < SHORT * moves;
+        if defect <= 1.0 || !self.longest_series().is_some_and(short) {
+            return defect;
+        }
+        match self.rounding_of_forces(looked) {
+            0.0 => defect,
+            rounding => self.guard_defect_beyond([blur, rounding], hit, looked),
         }
     }
 
-    /// The same where forces are known to within `blur` only, relative; of those at their limit, relative to what makes them.
-    fn guard_defect_beyond(&mut self, blur: f64, hit: &Hit, looked: f64) -> f64 {
+    /// The same where forces are known to within `blur` only, relative; of those at their limit, relative to what makes them; and to within what
+    /// rounding of positions makes of them.
+    fn guard_defect_beyond(&mut self, [blur, rounding]: [f64; 2], hit: &Hit, looked: f64) -> f64 {
         let tolerance = self.settings.tolerance;
         self.locator.polynomials.defect(
             &mut self.dynamics,
             &self.now.mode,
             looked,
-            [tolerance, blur],
+            [tolerance, blur, rounding],
             self.locator.known(hit),
         )
+    }
+
+    /// What rounding of the positions at part `looked` of the step makes of the forces that guards read, as far as guesses say: positions may be counted
+    /// from far away. `dynamics` and `scratch` end as they were.
+    fn rounding_of_forces(&mut self, looked: f64) -> f64 {
+        let forces = |run: &Self| {
+            let curves = &run.locator.polynomials;
+            curves.values_of_forces(&run.now.mode, &run.dynamics)
+        };
+        let exact = forces(self);
+        let mut most = 0.0_f64;
+        for alternates in [false, true] {
+            self.state_at_end(looked);
+            for (j, q) in self.stepper.scratch.q.iter_mut().enumerate() {
+                let sign = if alternates && j % 2 == 1 { -1.0 } else { 1.0 };
+                *q *= T::from_f64(1.0 + sign * ULPS * epsilon::<T>());
+            }
+            if self.evaluate_scratch(looked).is_ok() {
+                let changes = forces(self).into_iter().zip(&exact);
+                most = changes.fold(most, |most, (x, y)| most.max((x - y).abs()));
+            }
+        }
+        match self.evaluate_end(looked) {
+            Ok(()) => most,
+            Err(_) => 0.0,
+        }
     }
 
     /// The same as far as a shorter step makes it smaller.
@@ -322,7 +364,7 @@ impl<T: Scalar> Run<T> {
     /// The contact that is hit by its polynomial but whose gap rises beyond, as far as the motion is known there, up to part `known` of the
     /// step: a distance √(x² + y²), which has no direction where it vanishes.
     ///
-    /// Positions are known to the tolerance, so that is what is looked at beyond the hit.
+    /// Positions are known to the tolerance, so that is what is looked at beyond the hit; gaps in another unit, to what is left of them there.
     fn gap_that_turns(&mut self, hit: &Hit, known: f64) -> Option<&'static str> {
         let Hit::Guards(end) = *hit else {
             return None;
@@ -332,30 +374,47 @@ impl<T: Scalar> Run<T> {
             let Guard::Gap(contact) = guard else {
                 continue;
             };
-            self.state_at_end(end);
             let index = self.locator.polynomials.index_of(guard)?;
-            let (_, curve) = self.locator.polynomials.get(index)?;
+            self.state_at_end(end);
             let q = self.stepper.scratch.q.iter();
             let extent = self.locator.polynomials.extents[contact];
             let size = q.fold(extent, |size, q| size.max(q.value().abs()));
             let depth = BEYOND * self.settings.tolerance.max(1e-13) * size;
-            let beyond = end + depth / polynomial_derivative(curve, end).abs();
-            let fallen = horner(curve, beyond);
-            if beyond > known || fallen > -0.5 * depth {
-                continue;
-            }
-            self.state_at_end(beyond);
-            let State { q, v, .. } = &self.stepper.scratch;
-            let time = self.stepper.step.time(T::from_f64(beyond));
-            self.dynamics.tape(time, q, v);
-            let curves = &self.locator.polynomials;
-            let gap = curves.value(index, &self.now.mode, &self.dynamics);
-            // A distance is then what its polynomial is, of the other sign; where the series of a gap has stopped converging it is something else.
-            if gap > 0.5 * depth && (gap + fallen).abs() < 0.5 * depth {
+            let turns = self.turns_beyond(index, end, depth, known) && {
+                let deeper = BEYOND * self.gap_at(index, end).abs();
+                deeper <= depth || self.turns_beyond(index, end, deeper, known)
+            };
+            if turns {
                 return Some(self.description().contacts[contact].name);
             }
         }
         None
+    }
+
+    /// Whether the gap that guard number `index` watches is above zero where its curve is as far below as `depth`, behind its root at part `end` of
+    /// the step.
+    fn turns_beyond(&mut self, index: usize, end: f64, depth: f64, known: f64) -> bool {
+        let Some((_, curve)) = self.locator.polynomials.get(index) else {
+            return false;
+        };
+        let beyond = end + depth / polynomial_derivative(curve, end).abs();
+        let fallen = horner(curve, beyond);
+        if beyond > known || fallen > -0.5 * depth {
+            return false;
+        }
+        let gap = self.gap_at(index, beyond);
+        // A distance is then what its polynomial is, of the other sign; where the series of a gap has stopped converging it is something else.
+        gap > 0.5 * depth && (gap + fallen).abs() < 0.5 * depth
+    }
+
+    /// The gap that guard number `index` watches, as declared, at part `s` of the step.
+    fn gap_at(&mut self, index: usize, s: f64) -> f64 {
+        self.state_at_end(s);
+        let State { q, v, .. } = &self.stepper.scratch;
+        self.dynamics
+            .tape(self.stepper.step.time(T::from_f64(s)), q, v);
+        let curves = &self.locator.polynomials;
+        curves.value(index, &self.now.mode, &self.dynamics)
     }
 
     /// Scales the series, up to `degree`, onto a step of length `h`; the state at its end is left in `scratch`, the changes of

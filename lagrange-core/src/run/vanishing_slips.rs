@@ -29,6 +29,7 @@ impl<T: Scalar> Run<T> {
         if !(0..d.frictions.len()).any(|f| wakes(self, facts, f)) {
             return Ok(());
         }
+        self.hold_velocities();
         self.evaluate_all_rows()?;
         for f in 0..d.frictions.len() {
             if wakes(self, facts, f) {
@@ -141,6 +142,28 @@ impl<T: Scalar> Run<T> {
         }
         self.dynamics.set_mode(&self.now.mode);
         self.now.valued = false;
+    }
+
+    /// Takes away what the run has left of the rates of rows that hold, where it can be: of a wheel that has rolled along one surface it would be
+    /// its slip on the next.
+    fn hold_velocities(&mut self) {
+        let State { q, v, .. } = &mut self.now.state;
+        let before = &mut self.switcher.before_holding.v;
+        before.copy_from_slice(v);
+        let held = self.dynamics.project_velocities(self.now.t, q, v, &[], 0.0);
+        if held.is_err() {
+            v.copy_from_slice(before);
+        }
+        self.now.valued = false;
+    }
+
+    /// The same of the gaps: it would be the gap of the next surface.
+    pub(super) fn hold_rows(&mut self) {
+        self.switcher.before_holding.clone_from(&self.now.state);
+        if self.project(true).is_err() {
+            self.now.state.clone_from(&self.switcher.before_holding);
+            self.now.valued = false;
+        }
     }
 
     /// Moves the state onto the rows of the mode of the dynamics, velocities to their last digit, and evaluates all rows there.

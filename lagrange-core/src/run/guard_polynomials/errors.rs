@@ -25,7 +25,7 @@ struct GuardError {
 }
 
 impl GuardPolynomials {
-    /// How far the polynomials are off at part `s` of the step, in units of what is allowed by the tolerance and, of forces, by their blur;
+    /// How far the polynomials are off at part `s` of the step, in units of what is allowed by the tolerance and, of forces, by their blur and rounding;
     /// `dynamics` holds the values of the state there, `known` tells of a guard whether this is its root, and how large what makes it is at least.
     ///
     /// The step is chosen for the coordinates, but a guard is a function of them whose series may converge no further than
@@ -37,7 +37,7 @@ impl GuardPolynomials {
         dynamics: &mut Dynamics<T>,
         mode: &Mode,
         s: f64,
-        allowed: [f64; 2],
+        allowed: [f64; 3],
         known: impl Fn(Guard) -> (bool, f64),
     ) -> f64 {
         let ratio = |off: GuardError| {
@@ -61,9 +61,22 @@ impl GuardPolynomials {
         tolerance: f64,
         known: impl Fn(Guard) -> (bool, f64),
     ) -> f64 {
-        let errors = self.errors(dynamics, mode, s, [tolerance, 0.0], known);
+        let errors = self.errors(dynamics, mode, s, [tolerance, 0.0, 0.0], known);
         let ratios = errors.map(|off| (off.error - off.rounding) / off.allowed);
         ratios.fold(0.0, f64::max)
+    }
+
+    /// The values of the guards that read forces at the last value of `dynamics`.
+    pub(in crate::run) fn values_of_forces<T: Scalar>(
+        &self,
+        mode: &Mode,
+        dynamics: &Dynamics<T>,
+    ) -> Vec<f64> {
+        let curves = self.list.iter().enumerate();
+        let forces = curves.filter(|(_, curve)| curve.guard.is_force());
+        forces
+            .map(|(index, _)| self.value(index, mode, dynamics))
+            .collect()
     }
 
     /// The errors of all polynomials at part `s` of the step.
@@ -73,7 +86,7 @@ impl GuardPolynomials {
         dynamics: &mut Dynamics<T>,
         mode: &Mode,
         s: f64,
-        [tolerance, blur]: [f64; 2],
+        [tolerance, blur, of_forces]: [f64; 3],
         known: impl Fn(Guard) -> (bool, f64),
     ) -> impl Iterator<Item = GuardError> {
         if !self.watches.is_empty() {
@@ -84,7 +97,10 @@ impl GuardPolynomials {
         let curves = curves.zip(self.coefficients.chunks_exact(self.width));
         curves.enumerate().map(move |(index, (curve, c))| {
             let (located, least) = known(curve.guard);
-            let blur = if curve.guard.is_force() { blur } else { 0.0 };
+            let [blur, of_forces] = match curve.guard.is_force() {
+                true => [blur, of_forces],
+                false => [0.0; 2],
+            };
             let allowed = allowance::<T>(curve.guard, tolerance, located).max(blur);
             let value = self.value(index, mode, dynamics);
             let found = if s == 1.0 { curve.sums.end } else { at(c, s) };
@@ -92,7 +108,7 @@ impl GuardPolynomials {
             GuardError {
                 error,
                 allowed: allowed * size(value, c).max(least),
-                rounding: self.rounding(error, curve.guard, dynamics),
+                rounding: self.rounding(error, curve.guard, dynamics).max(of_forces),
                 other_side: !located && (found < 0.0) != (value < 0.0),
             }
         })
@@ -117,6 +133,7 @@ impl GuardPolynomials {
         let (terms, extent) = match guard {
             Guard::Gap(c) => (&state[1..=n], self.extents[c]),
             Guard::Slip(_) => (&state[1 + n..], 1.0),
+            Guard::Region(_) => (&state[1..=n], 1.0),
             Guard::Stop(..) | Guard::Mark(..) | Guard::Branch(_) => (state, 1.0),
             _ => return least,
         };

@@ -146,3 +146,49 @@ fn without_friction_slips_pass_through_zero() {
         }
     }
 }
+
+/// A load on a moving belt, held by two brakes that take turns, and always can hold it together.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2/2,
+    define(belt = swing*sin(rate*t), share = (1 - cos(shift*t))/2),
+    force(pull: x = strength),
+    friction(first: slip = der(x) - belt, limit = (most*(1 - share), 0.3*most*(1 - share))),
+    friction(second: slip = der(x) - belt, limit = (most*share, 0.3*most*share)),
+)]
+struct Turns {
+    swing: f64,
+    rate: f64,
+    shift: f64,
+    strength: f64,
+    most: f64,
+}
+
+/// What either can hold touches zero again and again, where the other one holds all.
+#[test]
+fn brakes_that_take_turns_hold() {
+    for (swing, rate, shift, strength) in [
+        (0.6, 1.5, 4.22, 3.58),
+        (0.4, 2.1, 7.0, 2.5),
+        (1.0, 1.2, 5.3, 4.4),
+    ] {
+        let scene = Turns {
+            swing,
+            rate,
+            shift,
+            strength,
+            most: 8.0,
+        };
+        for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+            let what = format!("{scene:?} by {method} at {tolerance:e}");
+            let run = run_by(&scene, (method, tolerance), state(&[0.0], &[0.0]), 3.0);
+            for brake in ["first", "second"] {
+                assert!(times(&run, brake, "slips").is_empty(), "{what}");
+            }
+            let carried = swing / rate * (1.0 - (3.0 * rate).cos());
+            agree(&what, run.final_state().q[0], carried, 100.0 * tolerance);
+            certified(&what, &run);
+        }
+    }
+}

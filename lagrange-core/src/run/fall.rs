@@ -1,0 +1,49 @@
+//! How a slip of two components falls to zero, told by what it is at two instants near there: along a straight line.
+
+/// A slip near its end: just before it, and there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fall {
+    pub before: [f64; 2],
+    pub now: [f64; 2],
+}
+
+impl Fall {
+    pub fn change(&self) -> [f64; 2] {
+        [0, 1].map(|k| self.now[k] - self.before[k])
+    }
+
+    pub fn length(&self) -> f64 {
+        self.change()[0].hypot(self.change()[1])
+    }
+
+    pub fn speed(&self) -> f64 {
+        self.now[0].hypot(self.now[1])
+    }
+
+    /// Whether it has come nearest to zero between both: a root that is located to the tolerance may be behind.
+    fn has_passed(&self) -> bool {
+        dot(self.now, self.change()) > 0.0 && dot(self.before, self.change()) < 0.0
+    }
+
+    pub fn grows(&self) -> bool {
+        dot(self.now, self.change()) > 0.0 && !self.has_passed()
+    }
+
+    /// By how much it misses zero, as far as is known.
+    pub fn missed(&self) -> f64 {
+        let ([x, y], [dx, dy]) = (self.now, self.change());
+        match self.has_passed() {
+            true => (x * dy - y * dx).abs() / self.length(),
+            false => self.speed(),
+        }
+    }
+
+    /// The time that is left, in units of that between both.
+    pub fn left(&self) -> f64 {
+        -dot(self.now, self.change()) / dot(self.change(), self.change())
+    }
+}
+
+pub(super) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}

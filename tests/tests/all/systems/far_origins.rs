@@ -1,0 +1,80 @@
+//! Coordinates that are counted from far away, and gaps that are far larger than what they are measured by: what rounding leaves of forces and gaps is
+//! no motion.
+
+use super::state;
+use lagrange_core::prelude::*;
+use lagrange_tests::{Random, agree, event, run_by};
+
+/// A block lies on a plate that a spring holds and a force shakes; all is counted from an origin.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(plate, block),
+    kinetic = 2/2*der(plate)^2 + 1/2*der(block)^2,
+    potential = stiffness/2*(plate - origin)^2 + 9.81*(block - origin),
+    force(drive: plate = 15*sin(rate*t)),
+    contact(rests: block - plate >= 0),
+)]
+struct Shaken {
+    stiffness: f64,
+    rate: f64,
+    origin: f64,
+}
+
+#[test]
+fn a_block_leaves_its_plate_wherever_that_is_counted_from() {
+    for (stiffness, rate) in [(100.0, 6.0), (130.0, 6.5), (80.0, 5.3)] {
+        let leaves = |origin: f64, tolerance: f64| {
+            let scene = Shaken {
+                stiffness,
+                rate,
+                origin,
+            };
+            let start = state(&[origin; 2], &[0.0; 2]);
+            let run = run_by(&scene, ("auto", tolerance), start, 3.0);
+            event(&run, "rests", "lost").time
+        };
+        let expected = leaves(0.0, 1e-12);
+        for (origin, tolerance) in [(1e4, 1e-13), (1e5, 1e-12), (1e5, 1e-13), (1e6, 1e-12)] {
+            let what = format!("{stiffness} {rate} from {origin:e} at {tolerance:e}");
+            // A position is known to a unit in its last place.
+            let known = 1e3 * f64::EPSILON * origin;
+            agree(what, leaves(origin, tolerance), expected, known);
+        }
+    }
+}
+
+/// A pendulum as long as a country is wide, beside a wall.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(angle),
+    define(x = length*sin(angle), y = -length*cos(angle)),
+    kinetic = (der(x)^2 + der(y)^2)/2,
+    potential = 9.81*y,
+    contact(wall: x >= -away, restitution = 0.5),
+)]
+struct Long {
+    length: f64,
+    away: f64,
+}
+
+#[test]
+fn a_pendulum_of_a_thousand_kilometres_meets_its_wall() {
+    let mut random = Random::new(23);
+    for case in 0..200 {
+        let scene = Long {
+            length: 1e6,
+            away: random.between(1e5, 4e5),
+        };
+        let from = random.between(0.5, 1.2);
+        let meets = -(scene.away / scene.length).asin();
+        let speed = (2.0 * 9.81 / scene.length * (meets.cos() - from.cos())).sqrt();
+        for tolerance in [1e-6, 1e-9] {
+            let start = state(&[from], &[0.0]);
+            let run = run_by(&scene, ("auto", tolerance), start, 1500.0);
+            let what = format!("{case}: {scene:?} from {from} at {tolerance:e}");
+            let hit = event(&run, "wall", "impact");
+            agree(&what, hit.state.q[0], meets, 10.0 * tolerance);
+            agree(&what, hit.state.v[0], -speed, 10.0 * tolerance);
+        }
+    }
+}
