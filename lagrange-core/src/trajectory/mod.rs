@@ -380,7 +380,7 @@ impl<T: Scalar> Trajectory<T> {
             }
             last = Some(segment.mode);
         }
-        if self.segments.len() > 0 && !self.ends_in_mode_of(self.segments.len() - 1) {
+        if last.is_some() && !self.ends_in_mode_of(self.segments.len() - 1) {
             let (from, to) = (self.last_time(), self.last_time());
             let mode = self.final_mode().under_way();
             phases.push(Phase { from, to, mode });

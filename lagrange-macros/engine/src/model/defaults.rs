@@ -21,8 +21,8 @@ pub fn defaults(
     let mut elaboration = fields_only(declaration, sink);
     let mut defaults = Vec::new();
     for (field, expr) in declaration.fields.iter().zip(values) {
-        if let Some(number) = literal(expr) {
-            defaults.extend(vec![number; field.length.unwrap_or(1)]);
+        if let Some(numbers) = literals(expr, field.length) {
+            defaults.extend(numbers);
             continue;
         }
         let Some(value) = elaboration.value(expr, DEFAULT) else {
@@ -43,6 +43,16 @@ pub fn defaults(
         }
     }
     (sink.count() == before).then_some(defaults)
+}
+
+/// Numbers written as such: a list of so many, or one for all.
+fn literals(expr: &Expr, length: Option<usize>) -> Option<Vec<f64>> {
+    match &expr.kind {
+        ExprKind::List(elements) if length == Some(elements.len()) => {
+            elements.iter().map(literal).collect()
+        }
+        _ => Some(vec![literal(expr)?; length.unwrap_or(1)]),
+    }
 }
 
 /// A number written as such. It need not be exact, so that it may be smaller or larger than those in expressions: Planck's constant has
@@ -75,7 +85,7 @@ impl Elaboration<'_> {
     /// The number that an expression is; reported if it is none.
     fn number(&mut self, e: ExprId, at: &Expr) -> Option<f64> {
         if !self.system.pool.symbols(e).is_empty() {
-            let example = "a number, as `3`, `-1/2` or `2*pi`";
+            let example = "a number, as `3`, `-1/2` or `2*pi` (what follows from other parameters is a `define`)";
             let found = format!("`{at}`");
             self.sink
                 .report(Code::Expected, at.extent, &[&example, &found]);

@@ -67,11 +67,13 @@ fn mistakes_are_marked_where_they_are() {
 /// What cannot be kept exactly in an expression can be the value of a parameter.
 #[test]
 fn values_of_parameters_are_doubles() {
-    let text = "parameters(planck: \"J s\" = 6.62607015e-34, far[2] = -1e99), coordinates(x), kinetic = der(x)^2";
+    let text = "parameters(planck: \"J s\" = 6.62607015e-34, far[2] = -1e99, masses = [8.74690017413206e-28, 1]), coordinates(x), kinetic = der(x)^2";
     let values = scene("quantum.lagrange", text)
         .expect("a declaration")
         .defaults();
-    assert_eq!(values, [6.626_070_15e-34, -1e99, -1e99]);
+    let masses = [8.746_900_174_132_06e-28, 1.0];
+    let before = [6.626_070_15e-34, -1e99, -1e99];
+    assert_eq!(values, [&before[..], &masses].concat());
     let told = mistakes(&text.replace("der(x)^2", "1e-40 * der(x)^2"));
     assert!(told.contains("`1e-40` cannot be kept exactly"), "{told}");
     let told = mistakes(&text.replace("1e99", "1e999"));
@@ -88,7 +90,7 @@ fn what_only_a_file_has_is_checked() {
         ),
         (
             format!("parameters(a = b, b = 1), {rest}"),
-            "1:16: expected a number, as `3`, `-1/2` or `2*pi`, found `b` [E001]",
+            "1:16: expected a number, as `3`, `-1/2` or `2*pi` (what follows from other parameters is a `define`), found `b` [E001]",
         ),
         (
             format!("parameters(a = c), {rest}"),
