@@ -159,6 +159,8 @@ pub enum Error {
         friction: bool,
         /// Whether there are piecewise expressions, which may jump.
         branches: bool,
+        /// A constraint that holds with any force while that contact is closed.
+        held: Option<&'static str>,
     },
     /// No solution of an impact was found.
     NoImpact {

@@ -164,11 +164,12 @@ impl fmt::Display for Error {
                 tried,
                 friction,
                 branches,
+                held,
             } => write!(
                 f,
                 "t = {} ({mode}): none of {tried} modes continues the motion at `{item}`; {}else ask for a smaller tolerance",
                 Shortest(*time),
-                some_mode(item, *friction, *branches)
+                some_mode(item, *held, *friction, *branches)
             ),
             Error::NoImpact {
                 time,
@@ -314,10 +315,15 @@ fn finite(cause: NotFinite) -> &'static str {
 }
 
 /// What would let a mode continue the motion.
-fn some_mode(item: &str, friction: bool, branches: bool) -> String {
+fn some_mode(item: &str, held: Option<&str>, friction: bool, branches: bool) -> String {
     // Conditions are told as they are written; names have no blanks.
     if branches && item.contains(' ') {
         return "on either side of it the motion is driven back to the other, as by a controller that switches: let the force change over a short range, or declare one that jumps with the sign of a velocity as a friction; ".to_owned();
+    }
+    if let Some(constraint) = held {
+        return format!(
+            "`{constraint}` holds with any force while `{item}` is closed, also where that would have to pull: let a friction on it hold instead, which gives way; "
+        );
     }
     let contacts = match friction {
         true => {

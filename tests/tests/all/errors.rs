@@ -968,6 +968,37 @@ fn a_relay_that_has_no_mode_is_told_no_causes_of_contacts() {
     }
 }
 
+/// A hoop that carries a heavy point, and that a constraint keeps from slipping while it touches the ground.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, turn),
+    define(point = [x + sin(turn), y + cos(turn)]),
+    kinetic = hoop/2*(der(x)^2 + der(y)^2 + der(turn)^2) + dot(der(point), der(point))/2,
+    potential = 9.81*(hoop*y + point[1]),
+    contact(ground: y >= 1),
+    constraint(roll while ground: der(x) == der(turn)),
+)]
+struct Hoop {
+    hoop: f64,
+}
+
+/// Where the ground would have to pull, its constraint holds on: neither with it nor without it does the motion go on.
+#[test]
+fn a_constraint_that_holds_where_its_contact_would_have_to_pull_is_told() {
+    let failure = Simulation::new(&Hoop { hoop: 0.02 })
+        .run(
+            State::new(vec![0.0, 1.0, 0.0], vec![0.01, 0.0, 0.01]),
+            0.0..20.0,
+        )
+        .expect_err("no mode");
+    let Error::NoMode { item, held, .. } = failure.error else {
+        panic!("{failure}")
+    };
+    assert_eq!((item, held), ("ground", Some("roll")));
+    let told = failure.to_string();
+    assert!(told.contains("let a friction on it hold instead"), "{told}");
+}
+
 /// A point held at the origin by a condition that is a square.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(

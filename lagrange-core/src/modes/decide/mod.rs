@@ -19,6 +19,7 @@ mod together;
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
+use crate::effects::Item;
 use crate::error::Error;
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::composite::CompositeGuard;
@@ -29,7 +30,7 @@ use crate::modes::reading::Reading;
 use crate::modes::redundant::RedundantForces;
 use crate::modes::scale::Sizes;
 use crate::modes::table::Table;
-use crate::system::Description;
+use crate::system::{Constraint, Description};
 use candidates::{Candidates, Listings, MOST_CANDIDATES};
 use incipient::Beginning;
 
@@ -287,13 +288,20 @@ impl<T: Scalar> Decider<T> {
 
     fn no_mode(&self, dynamics: &Dynamics<T>, here: SwitchContext<'_, T>) -> Error {
         let d = dynamics.description();
+        let item = concerned(d, here.facts, here.present);
+        let holds = |(i, constraint): (usize, &Constraint)| {
+            let contact = &d.contacts[constraint.while_contact?];
+            let included = dynamics.effects().includes(d, Item::Constraint(i));
+            (contact.name == item && included).then_some(constraint.name)
+        };
         Error::NoMode {
             time: here.moment.t.value(),
             mode: here.present.display(d).to_string(),
-            item: concerned(d, here.facts, here.present),
+            item,
             tried: self.tried,
             friction: dynamics.has_frictions(),
             branches: !d.branches.is_empty(),
+            held: d.constraints.iter().enumerate().find_map(holds),
         }
     }
 
