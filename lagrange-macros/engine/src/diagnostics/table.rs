@@ -46,7 +46,7 @@ table! {
     ComparisonExpected "E011" "expected a comparison" "write {0}";
     ComparisonAsValue "E012" "a comparison is not a value" "`if(a >= b, x, y)` chooses between values; `stop`, `mark`, `contact` and `constraint` take comparisons";
     StrictComparison "E013" "`{0}` is not used here" "write `{0}=`: a switch happens where both sides are equal";
-    ChainedComparison "E014" "comparisons do not chain" "join two with `and`: `a <= x and x <= b`";
+    ChainedComparison "E014" "comparisons do not chain" "write two items, or of a stop or mark two conditions: `a <= x and x <= b`";
     WrongRelation "E015" "`{0}` does not make a {1}" "{2}";
     UnknownPart "E016" "`{0}` is not a part of `{1}`" "{2}";
     RepeatedPart "E017" "`{0}` is given twice" "keep one";

@@ -50,7 +50,7 @@ pub(super) fn leftover(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<()
             sink.report(Code::Operator, cursor.here(), &[word, &hint]);
         }
         (TokenTree::Ident(word), _) if word == "and" => {
-            let hint = "one condition stands here: instead of `if(a and b, x, y)` write `if(a, if(b, x, y), y)`";
+            let hint = "one condition stands here: write a contact for each gap, and `if(a, if(b, x, y), y)` instead of `if(a and b, x, y)`";
             sink.report(Code::Operator, cursor.here(), &[word, &hint]);
         }
         (TokenTree::Ident(word), _) if word == "as" => {
