@@ -25,8 +25,8 @@ pub(super) struct Locator<T> {
     pub(super) polynomials: GuardPolynomials,
     /// Guards whose leading coefficients vanish at the start of the coming step.
     pub(super) zeros: Vec<(Guard, usize)>,
-    /// Regions that the motion enters at this instant, on the surface: their edges are where it is, however far projections move it.
-    pub(super) entered: Vec<Guard>,
+    /// Contacts whose region the motion enters at this instant, on the surface.
+    pub(super) entered: Vec<usize>,
     /// Whether a gap began at zero with the step that has just ended.
     pub(super) opened: bool,
     /// Whether a gap stays zero although its contact is open, because others hold it there.

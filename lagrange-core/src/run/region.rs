@@ -6,7 +6,7 @@
 //! come up through it. Where it enters the region on the surface, as a wheel that climbs a kerb, the contact closes.
 
 use super::Run;
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, rounding};
 use crate::effects::Item;
 use crate::events::{Direction, find_root};
 use crate::integrate::{polynomial_derivative as slope, polynomial_value as value};
@@ -14,6 +14,9 @@ use crate::mode::Mode;
 use crate::modes::guard::Guard;
 use crate::system::{Contact, ValueRef};
 use core::ops::ControlFlow::Break;
+
+/// Gaps that other gaps hold at zero are off by no more than this, relative to what makes them.
+const ROUNDING: f64 = 1e-12;
 
 /// Whether a guard is the edge of a contact that is open in a mode.
 pub(super) fn is_edge_in_flight(guard: Guard, mode: &Mode) -> bool {
@@ -63,9 +66,10 @@ impl<T: Scalar> Run<T> {
         (enters && value(gap, s).abs() <= self.touching(c)).then_some((s, width))
     }
 
-    /// A gap of this size vanishes.
+    /// A gap of this size vanishes: the tolerance, but no less than rounding of what makes it.
     fn touching(&self, c: usize) -> f64 {
-        self.settings.tolerance.max(1e-13) * self.locator.polynomials.extents[c]
+        let rounding = rounding::<T>(ROUNDING) * self.locator.polynomials.extents[c];
+        self.settings.tolerance.max(rounding)
     }
 
     /// Remembers which surfaces the motion is below at part `end` of the step.
@@ -138,8 +142,16 @@ impl<T: Scalar> Run<T> {
             if gap.abs() <= small && number(region) >= -small {
                 self.switcher.status.facts.touching[c] = true;
                 self.switcher.status.facts.arriving[c] = true;
-                self.locator.entered.push(Guard::Region(c));
+                self.locator.entered.push(c);
             }
+        }
+    }
+
+    /// The edges of regions that have just been entered on the surface are where the motion is, to what projections move it.
+    pub(super) fn let_enter(&mut self) {
+        while let Some(c) = self.locator.entered.pop() {
+            let small = self.touching(c);
+            self.locator.polynomials.lower(Guard::Region(c), small);
         }
     }
 }

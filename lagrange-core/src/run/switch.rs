@@ -202,13 +202,12 @@ impl<T: Scalar> Run<T> {
             .fallen
             .iter()
             .filter(|g| matches!(g, Guard::Region(_)));
-        let edges = edges.chain(&self.locator.entered);
         self.locator.zeros.extend(edges.map(|&edge| (edge, 1)));
-        self.locator.entered.clear();
         self.switcher.since = self.now.t.value();
         self.set_mode_decided();
         self.refuse_derivatives_of_directions()?;
         self.let_lie();
+        self.let_enter();
         if self.switcher.decider.decision.expanded {
             self.now.series = Progress::Complete;
         }

@@ -196,8 +196,8 @@ impl<T: Scalar> Decider<T> {
         Ok(self.violated.is_empty())
     }
 
-    /// Whether rows that depend on others at the instant do so at the instant only, and a friction that sticks is one of them: a slider in
-    /// its dead centre, which is at rest however the crank turns. No force keeps it there; the frictions that would have to are blamed.
+    /// Whether rows that depend on others at the instant do so at the instant only: a slider in its dead centre, which is at rest however the
+    /// crank turns, and two lifts that hand a load over. No force keeps them together; the frictions that would have to are blamed, or else the contacts.
     fn comes_apart(
         &mut self,
         dynamics: &mut Dynamics<T>,
@@ -209,7 +209,9 @@ impl<T: Scalar> Decider<T> {
         let frictions = self.posed.frictions.iter().enumerate();
         let sticking = frictions.filter(|(_, friction)| **friction == FrictionMode::Stick);
         let sticking: Vec<usize> = sticking.map(|(f, _)| f).collect();
-        if sticking.is_empty() {
+        let closed = (0..d.contacts.len()).filter(|&c| self.posed.contacts[c]);
+        let closed: Vec<usize> = closed.collect();
+        if sticking.is_empty() && closed.len() < 2 {
             return Ok(false);
         }
         dynamics.set_extra_needs(&guard::all_row_needs(d, needs));
@@ -245,6 +247,10 @@ impl<T: Scalar> Decider<T> {
                 _ => Guard::StickCone(f),
             };
             self.violated.extend(sticking.iter().map(guard));
+            if sticking.is_empty() {
+                self.violated
+                    .extend(closed.iter().map(|&c| Guard::Normal(c)));
+            }
         }
         Ok(apart)
     }

@@ -37,6 +37,9 @@ use sequential::{MOST_IMPACTS, Stuck, Turns};
 /// An impact may miss its energy balance by this share, and no more.
 const GAIN: f64 = 1e-9;
 
+/// The rates of rows that hold on are known to so many times what the run has left of them.
+const LEFT: f64 = 2.0;
+
 /// An impact that satisfies the law as well as the one that was chosen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OtherImpact<T> {
@@ -236,8 +239,10 @@ impl<T: Scalar> Collider<T> {
         for rub in &c.rubs {
             let rows = rub.rows();
             let slip = length(&turns.rates[rows.clone()]);
-            outcome.sticks[rub.friction] = slip <= turns.noise[rub.row];
             let strength = rows.map(|row| c.strength(row)).fold(0.0, f64::max);
+            // What has stuck to another surface is as far from rest on this one as it was there.
+            let off = LEFT * strength * c.drift;
+            outcome.sticks[rub.friction] = slip <= turns.noise[rub.row] + off;
             outcome.slips[rub.friction] = slip / (strength * effort).max(f64::MIN_POSITIVE);
         }
     }

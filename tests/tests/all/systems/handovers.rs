@@ -181,3 +181,83 @@ fn a_string_lays_itself_round_a_peg() {
         }
     }
 }
+
+/// A mass on a lift that sinks away from an instant on, at which another one has come up.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y),
+    kinetic = mass/2*der(y)^2,
+    potential = mass*9.81*y,
+    contact(first: y >= -steep*max(t - meet, 0)^3),
+    contact(second: y >= -steep*max(meet - t, 0)^3),
+)]
+struct Lifts {
+    mass: f64,
+    steep: f64,
+    meet: f64,
+}
+
+/// Both carry it for no longer than that instant, at which nothing but their third derivatives tells them apart.
+#[test]
+fn a_lift_hands_its_load_over() {
+    for (mass, steep, meet) in [(1.0, 1.0, 1.71), (2.0, 0.3, 0.9), (0.5, 2.5, 1.4)] {
+        let scene = Lifts { mass, steep, meet };
+        for tolerance in TOLERANCES {
+            let what = format!("{scene:?} at {tolerance:e}");
+            let run = run_by(&scene, ("auto", tolerance), state(&[0.0], &[0.0]), 3.0);
+            let end = run.sampler().at(3.0).expect("the end");
+            agree(&what, end.force(Lifts::SECOND), 9.81 * mass, 1e-9);
+            agree(&what, end.force(Lifts::FIRST), 0.0, 0.0);
+            agree(&what, run.final_state().q[0], 0.0, 10.0 * tolerance);
+            certified(&what, &run);
+        }
+    }
+}
+
+/// A block that sticks to a moving lift, and then to another one of the same speed; slips have two components.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, z),
+    kinetic = (der(x)^2 + der(y)^2 + der(z)^2)/2,
+    potential = 9.81*y,
+    define(speed = swing*sin(rate*t + phase)/rate),
+    contact(first: y >= -steep*max(t - meet, 0)^2),
+    contact(second: y >= -steep*max(meet - t, 0)^2),
+    friction(on_first on first: slip = (der(x) - speed, der(z)), static = 0.5, kinetic = 0.1),
+    friction(on_second on second: slip = (der(x) - speed, der(z)), static = 0.5, kinetic = 0.1),
+)]
+struct MovingLifts {
+    swing: f64,
+    rate: f64,
+    phase: f64,
+    steep: f64,
+    meet: f64,
+}
+
+/// The second lift arrives at no speed; to the tolerance it may hit the block a little before.
+#[test]
+fn a_lift_hands_over_what_sticks_to_it() {
+    let mut random = Random::new(24);
+    for case in 0..20 {
+        let scene = MovingLifts {
+            swing: random.between(1.0, 3.0),
+            rate: random.between(1.0, 3.0),
+            phase: random.between(-3.0, 3.0),
+            steep: random.between(0.1, 2.0),
+            meet: random.between(0.5, 2.0),
+        };
+        let MovingLifts {
+            swing, rate, phase, ..
+        } = scene;
+        let begins = swing * phase.sin() / rate;
+        let carried = swing / rate / rate * (phase.cos() - (2.5 * rate + phase).cos());
+        for tolerance in [1e-6, 1e-7, 1e-9] {
+            let what = format!("{case}: {scene:?} at {tolerance:e}");
+            let start = state(&[0.0; 3], &[begins, 0.0, 0.0]);
+            let run = run_by(&scene, ("auto", tolerance), start, 2.5);
+            assert!(times(&run, "on_second", "slips").is_empty(), "{what}");
+            agree(&what, run.final_state().q[0], carried, 100.0 * tolerance);
+            certified(&what, &run);
+        }
+    }
+}
