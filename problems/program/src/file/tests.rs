@@ -111,7 +111,7 @@ fn what_only_a_file_has_is_checked() {
         // There is no struct whose fields could be meant.
         (
             format!("{rest}, potential = 1e30 * 1e30 * x"),
-            "1:49: the exact numbers here outgrow 38 digits; make such numbers parameters",
+            "1:49: the exact numbers of `1000000000000000000000000000000*1000000000000000000000000000000*x` outgrow 38 digits; make such numbers parameters",
         ),
         (
             format!("{rest}, start(a: x = x)"),

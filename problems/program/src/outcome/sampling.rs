@@ -52,18 +52,15 @@ pub(super) fn samples(trajectory: &Trajectory, times: &[f64]) -> Vec<Sample> {
             .chain(within.copied())
             .chain(iter::once(span.to))
             .collect();
-        for ends in ends.windows(2) {
-            let (from, to) = (ends[0], ends[1]);
+        for part in ends.windows(2) {
+            let (from, to) = (part[0], part[1]);
             let after = times.partition_point(|t| *t <= from);
             let before = times.partition_point(|t| *t < to).max(after);
             let inner = times[after..before].iter().copied();
             for time in iter::once(from).chain(inner).chain(iter::once(to)) {
                 // At a switch a sampler gives what is just after it: what ends there is read a trifle before.
-                let read = if time == to && phase + 1 < phases.len() {
-                    just_before(time)
-                } else {
-                    time
-                };
+                let ends = time == to && (time < last || phase + 1 < phases.len());
+                let read = if ends { just_before(time) } else { time };
                 samples.extend(reader.sample(time, read, phase, &span.mode));
             }
         }
