@@ -34,7 +34,7 @@ pub use output_mask::{OutputMask, add_branch_guards, add_guards};
 pub(crate) use packets::Packets;
 pub use projection::Residual;
 pub(crate) use projection::rounding_of_residuals;
-pub(crate) use slip_direction::approach;
+pub(crate) use slip_direction::{approach, cross, dot};
 
 use crate::arithmetic::Scalar;
 use crate::effects::{Effects, Item};

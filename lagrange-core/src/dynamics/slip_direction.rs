@@ -133,11 +133,11 @@ impl<T: Scalar> SlipDirections<T> {
     }
 }
 
-fn dot<T: Scalar>(a: [T; 2], b: [T; 2]) -> T {
+pub(crate) fn dot<T: Scalar>(a: [T; 2], b: [T; 2]) -> T {
     a[0] * b[0] + a[1] * b[1]
 }
 
-fn cross<T: Scalar>(a: [T; 2], b: [T; 2]) -> T {
+pub(crate) fn cross<T: Scalar>(a: [T; 2], b: [T; 2]) -> T {
     a[0] * b[1] - a[1] * b[0]
 }
 

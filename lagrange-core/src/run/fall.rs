@@ -1,5 +1,7 @@
 //! How a slip of two components falls to zero, told by what it is at two instants near there: along a straight line.
 
+use crate::dynamics::{cross, dot};
+
 /// A slip near its end: just before it, and there.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fall {
@@ -31,9 +33,8 @@ impl Fall {
 
     /// By how much it misses zero, as far as is known.
     pub fn missed(&self) -> f64 {
-        let ([x, y], [dx, dy]) = (self.now, self.change());
         match self.has_passed() {
-            true => (x * dy - y * dx).abs() / self.length(),
+            true => cross(self.now, self.change()).abs() / self.length(),
             false => self.speed(),
         }
     }
@@ -42,8 +43,4 @@ impl Fall {
     pub fn left(&self) -> f64 {
         -dot(self.now, self.change()) / dot(self.change(), self.change())
     }
-}
-
-pub(super) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
 }

@@ -6,11 +6,11 @@
 //! passes near zero is followed through.
 
 use super::Run;
-use super::fall::{Fall, dot};
+use super::fall::Fall;
 use super::instant::derivatives;
 use super::stepping::{JUST_BEFORE, Stepper};
 use crate::arithmetic::Scalar;
-use crate::dynamics::{approach, rounding_of_residuals};
+use crate::dynamics::{approach, dot, rounding_of_residuals};
 use crate::error::Error;
 use crate::mode::{Direction, FrictionMode, Sliding};
 use crate::modes::exact;
@@ -191,15 +191,15 @@ impl<T: Scalar> Run<T> {
     /// The error of a slip of two components, at the state of the last tape, from those of the velocities, beside the slip.
     fn error_of_direction(&self, f: usize) -> f64 {
         let row = self.description().frictions[f].row;
-        let error = |row: usize| {
-            let allowed = |j: usize| {
-                let size = self.now.state.v[j].value().abs();
-                self.settings.allowed(j, size)
-            };
-            self.dynamics.size_of_row(row, allowed)
-        };
+        let error = |row: usize| self.error_of_rate(row, &self.now.state.v);
         let slip = self.dynamics.slip(f).map(|s| s.value());
         error(row).hypot(error(row + 1)) / slip[0].hypot(slip[1])
+    }
+
+    /// How far the rate of a row may be off because velocities like these are.
+    fn error_of_rate(&self, row: usize, v: &[T]) -> f64 {
+        let allowed = |j: usize| self.settings.allowed(j, v[j].value().abs());
+        self.dynamics.size_of_row(row, allowed)
     }
 
     /// Whether what is listed in `rests` would stay at rest by less friction than it slips with. Leaves `dynamics` in the mode in which it
@@ -344,7 +344,7 @@ impl<T: Scalar> Run<T> {
             return true;
         }
         let rows = self.description().frictions[f].rows();
-        let of_rows = rows.map(|row| self.dynamics.size_of_row(row, of_velocity));
+        let of_rows = rows.map(|row| self.error_of_rate(row, v));
         let by_time = self.settings.tolerance * self.dynamics.slip_size(f, v);
         fall.missed() > allowed * (of_rows.sum::<f64>() + by_time)
     }
@@ -367,10 +367,7 @@ impl<T: Scalar> Run<T> {
         }
         self.dynamics.set_mode(&self.locator.resting);
         // What holds a slip otherwise leaves it what time makes of it at an instant that is off by rounding.
-        self.switcher.before_holding.clone_from(&self.now.state);
-        if self.project(true).is_err() {
-            self.now.state.clone_from(&self.switcher.before_holding);
-        }
+        self.hold_rows();
         self.rest_of_necessity();
         self.locator.resting.clone_from(&self.now.mode);
         for rest in &self.locator.rests {

@@ -1,7 +1,7 @@
 //! Whether one candidate mode is feasible: its guards at the instant and, of those that vanish, just after it.
 
 use super::Decider;
-use super::just_after::{AHEAD, reach};
+use super::just_after::{AHEAD, reach, terms};
 use super::questions::{blame, concerns, leading, list_questions};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{AT_REST, Dynamics, EvaluationError, OutputMask};
@@ -218,13 +218,7 @@ impl<T: Scalar> Decider<T> {
         dynamics.series(moment.t, moment.q, moment.v, moment.order)?;
         self.decision.expanded = false;
         let h = reach(dynamics, moment.order, moment.allowed());
-        let largest = |series: &[T]| {
-            let powers = core::iter::successors(Some(1.0), |power| Some(power * h));
-            let terms = series.iter().zip(powers);
-            terms.fold(0.0_f64, |largest, (c, power)| {
-                largest.max(c.value().abs() * power)
-            })
-        };
+        let largest = |series: &[T]| terms(series.iter().map(|c| c.value()), h).fold(0.0, f64::max);
         let reading = Reading::Series(dynamics);
         let size = |place: ValueRef| largest(reading.motion(place).as_slice());
         // Of accelerations that forces keep at zero while they grow rounding is left.

@@ -222,7 +222,9 @@ impl<T: Scalar> Decider<T> {
         // The residue of a located root, and what follows from it, has the size of the integration error. Everything else is off by what it changes by
         // within the error of the instant.
         let (relative, absolute) = if concerns(guard, &self.composites, here.facts) {
-            let known = size_within(series, here.facts.lasted / h) / size;
+            // What moves slowly from now on may be known for far longer than what led to it.
+            let part = (here.facts.lasted / h).min(1.0);
+            let known = terms(series.iter().copied(), part).fold(0.0, f64::max) / size;
             ((100.0 * tolerance).clamp(1e-11, 1e-3) * known, here.blur())
         } else {
             let instant = INSTANT * tolerance;
@@ -262,11 +264,9 @@ impl<T: Scalar> Decider<T> {
         let sizes = left.map(|(row, known)| {
             let reading = Reading::Series(dynamics);
             guard::series(row, &self.posed, &reading, &composite::ONES, series);
-            let powers = core::iter::successors(Some(1.0), |power| Some(power * h));
-            let terms = series.iter().zip(powers).skip(known);
-            let grows = terms.fold(0.0_f64, |largest, (c, power)| {
-                largest.max((c * power).abs())
-            });
+            let grows = terms(series.iter().copied(), h)
+                .skip(known)
+                .fold(0.0, f64::max);
             if grows > 0.0 {
                 self.sizes.of(row, dynamics) * unit_of_order(row, h) * size / grows
             } else {
@@ -277,11 +277,10 @@ impl<T: Scalar> Decider<T> {
     }
 }
 
-/// The size of a series up to this part of what it is scaled onto: what moves slowly from now on may be known for far longer than what led to it.
-fn size_within(series: &[f64], part: f64) -> f64 {
-    let powers = core::iter::successors(Some(1.0), |power| Some(power * part.min(1.0)));
-    let terms = series.iter().zip(powers);
-    terms.fold(0.0, |size, (c, power)| f64::max(size, (c * power).abs()))
+/// The sizes of the terms of a series after some time.
+pub(super) fn terms(series: impl Iterator<Item = f64>, time: f64) -> impl Iterator<Item = f64> {
+    let powers = core::iter::successors(Some(1.0), move |power| Some(power * time));
+    series.zip(powers).map(|(c, power)| (c * power).abs())
 }
 
 /// Whether a contact cannot open because others are closed, or a friction cannot slip because others stick: then the mode
