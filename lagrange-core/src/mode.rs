@@ -198,6 +198,20 @@ impl Mode {
         self.incipient().next().is_some()
     }
 
+    /// Whether a slip of two components goes along itself in it, or begins to.
+    pub(crate) fn has_turning_slip(&self) -> bool {
+        let mut frictions = self.frictions.iter();
+        frictions.any(|friction| {
+            matches!(
+                friction,
+                FrictionMode::Slip(Sliding {
+                    direction: Direction::AlongSlip | Direction::Incipient(_),
+                    ..
+                })
+            )
+        })
+    }
+
     /// The mode in which the motion goes on once the slips that begin in this one have begun.
     #[must_use]
     pub fn under_way(&self) -> Self {

@@ -168,6 +168,9 @@ impl<T: Runnable> Trajectory<T> {
 impl<T: Runnable> Sampler<'_, T> {
     /// The motion at time `t`, s. At the instant of a switch: just after it.
     ///
+    /// Derivatives are those at a fixed time. At [`Trajectory::last_time`] they are those at the end of the run, which moves with the event
+    /// that ends it, as those of [`Trajectory::final_state`] are.
+    ///
     /// # Errors
     /// [`Error::OutsideTrajectory`]; [`Error::NotRecorded`] but at the first and the last time of the run; or the equations of motion
     /// could not be evaluated there.

@@ -15,7 +15,7 @@ mod tests;
 
 pub use dual::Dual;
 pub(crate) use number::{
-    GOLDEN, LIGHT, Number, epsilon, is_spread, positive_definite, rounding, uneven,
+    GOLDEN, LIGHT, Number, derivatives, epsilon, is_spread, positive_definite, rounding, uneven,
 };
 pub(crate) use pack::Pack;
 pub(crate) use registers::Registers;

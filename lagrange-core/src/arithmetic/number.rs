@@ -75,6 +75,14 @@ pub(crate) fn rounding<T: Scalar>(of_double: f64) -> f64 {
     of_double * (epsilon::<T>() / f64::EPSILON)
 }
 
+/// What a number has beside its value.
+pub(crate) fn derivatives<T: Scalar>(x: T) -> T {
+    if T::DERIVATIVES == 0 {
+        return T::zero();
+    }
+    x - T::from_f64(x.value())
+}
+
 /// The distance from 1 to the next number of a type.
 #[inline(always)]
 pub(crate) fn epsilon<T: Scalar>() -> f64 {

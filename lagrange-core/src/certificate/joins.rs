@@ -31,9 +31,17 @@ impl<T: Scalar> Examination<'_, T> {
         if self.accelerate(before, before.end).is_err() {
             return;
         }
+        // The direction of what is left of a slip follows the forces at once: a step of the linearly implicit method of Euler.
+        let rates = self.expected.v.iter().zip(&self.acceleration);
+        let errors = self.errors.q.iter_mut().zip(&mut self.errors.v);
+        for ((dq, dv), (v, a)) in errors.zip(rates) {
+            (*dq, *dv) = (left * v, left * a.value());
+        }
+        if self.damp(before, before.end.value(), left).is_err() {
+            return;
+        }
         let State { q, v, .. } = &mut self.expected;
-        for ((q, v), a) in q.iter_mut().zip(v).zip(&self.acceleration) {
-            let change = left * a.value();
+        for ((q, v), change) in q.iter_mut().zip(v).zip(&self.errors.v) {
             *q += left * (*v + 0.5 * change);
             *v += change;
         }

@@ -10,7 +10,7 @@ use crate::checks::state::signed;
 use crate::declaration::Declaration;
 use crate::dynamics::{Dynamics, OutputMask};
 use crate::error::Error;
-use crate::integrate::{Method, least_size};
+use crate::integrate::{Method, Radau, least_size};
 use crate::mode::Mode;
 use crate::modes::guard::all_row_needs;
 use crate::modes::redundant::RedundantForces;
@@ -311,7 +311,11 @@ impl<'a, T: Scalar> Examination<'a, T> {
         }
         self.enter(segment);
         if !self.has_small_defects(segment)? {
-            self.integrate(segment)?;
+            let turns = self.record.modes[segment.mode].has_turning_slip();
+            match turns && segment.degree != Radau::<T>::DEGREE {
+                true => self.follow(segment)?,
+                false => self.integrate(segment)?,
+            }
         }
         // The error of a step is a mean over its components, one of which may have all of it.
         let components = (2.0 * self.begin.q.len() as f64).sqrt();

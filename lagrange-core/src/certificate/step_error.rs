@@ -3,7 +3,7 @@
 //! Dense output of Runge–Kutta methods is of lower order than their steps, so its derivative says little. What a step promises is
 //! its end: v(end) − v(0) − ∫ a dt and q(end) − q(0) − ∫ v dt, with the reported accelerations a along the dense output, are the
 //! error of the step and h·∂a/∂q times that of the dense output. The integrals are by Gauss–Legendre quadrature. In stiff systems h·∂a/∂v is
-//! large: of the steps of Radau what counts is the part of the error that is not damped at once.
+//! large: of the steps of Radau what counts is the part of the error that is not damped at once; and so in those in which slips of two components turn, where it is followed along the step.
 //!
 //! Where the dense output is as good as the step, as a Taylor series is, its defects q̇ − v and v̇ − a are as small as its error. Then their
 //! absolute values at three places, by Radau's quadrature, are more than the integral of a defect that grows towards the end, and
@@ -66,7 +66,27 @@ impl<T: Scalar> Examination<'_, T> {
             }
         }
         if segment.degree == Radau::<T>::DEGREE {
-            self.damp(segment)?;
+            self.damp(segment, end, h * end)?;
+        }
+        Ok(())
+    }
+
+    /// The same where slips of two components turn: the direction of one that has hardly begun follows the forces at once, and turns with them in a step.
+    /// An error e follows ė = J e + δ, δ the defect of the dense output, here by steps of the linearly implicit method of Euler.
+    pub(super) fn follow(&mut self, segment: &Segment<T>) -> Result<(), Error> {
+        let (h, end) = (segment.h.value(), segment.end.value());
+        let nodes = gauss(segment.degree / 2 + 2);
+        self.start_errors(0.0);
+        for (x, w) in nodes {
+            let (s, weight) = (0.5 * end * (1.0 + x), 0.5 * end * h * w);
+            self.dynamics.set_mode(&self.record.modes[segment.mode]);
+            self.accelerate(segment, T::from_f64(s))?;
+            for i in 0..self.begin.q.len() {
+                let (dq, dv) = (self.rates.q[i] / segment.h, self.rates.v[i] / segment.h);
+                self.errors.q[i] += weight * (self.scratch.v[i] - dq).value();
+                self.errors.v[i] += weight * (self.acceleration[i] - dv).value();
+            }
+            self.damp(segment, s, weight)?;
         }
         Ok(())
     }
@@ -114,18 +134,20 @@ impl<T: Scalar> Examination<'_, T> {
         Ok(())
     }
 
-    /// What is left of the errors at the end of a step, (1 − h J)⁻¹ of them, J the Jacobian there: an error of the
+    /// What is left of the errors after a time h, (1 − h J)⁻¹ of them, J the Jacobian at part `s` of a step: an error of the
     /// dense output in a motion that is damped fast changes the accelerations by far more, but for a short time only.
-    fn damp(&mut self, segment: &Segment<T>) -> Result<(), Error> {
+    pub(super) fn damp(&mut self, segment: &Segment<T>, s: f64, h: f64) -> Result<(), Error> {
         let d = self.record.description();
-        let (time, n) = (segment.t + segment.h * segment.end, self.last.q.len());
+        let s = T::from_f64(s);
+        let (time, n) = (segment.t + segment.h * s, self.last.q.len());
         let State { q, v, .. } = &mut self.scratch;
-        self.record.state_at(segment, segment.end, q, v);
+        self.record.state_at(segment, s, q, v);
+        // A slip that has begun goes along itself there.
+        self.dynamics.set_mode(&self.modes[segment.mode]);
         let mut columns = vec![T::zero(); 2 * n * n];
         let outcome = self.dynamics.jacobian(time, q, v, &mut columns);
         let mode = &self.record.modes[segment.mode];
         outcome.map_err(|e| Error::from_evaluation(e, time.value(), mode, d))?;
-        let h = (segment.h * segment.end).value();
         let rate = |i: usize, j: usize| match i.checked_sub(n) {
             Some(i) => columns[j * n + i].value(),
             None => f64::from(u8::from(j == i + n)),
@@ -134,7 +156,10 @@ impl<T: Scalar> Examination<'_, T> {
         let matrix = DMatrix::from_fn(2 * n, 2 * n, |i, j| unit(i, j) - h * rate(i, j));
         let State { q, v, .. } = &mut self.errors;
         let errors = DVector::from_iterator(2 * n, q.iter().chain(v.iter()).copied());
-        if let Some(left) = matrix.lu().solve(&errors) {
+        // What the Jacobian of a slip that has all but vanished makes of them is no number of theirs.
+        if let Some(left) = matrix.lu().solve(&errors)
+            && left.amax() <= errors.amax()
+        {
             let errors = q.iter_mut().chain(v);
             errors
                 .zip(left.iter())

@@ -217,7 +217,7 @@ pub(crate) struct LeastForces<T> {
     /// Those of least norm.
     pub(crate) forces: Vec<T>,
     /// How else they could be, but for the multipliers of quaternions.
-    pub(crate) freedom: Freedom,
+    pub(crate) freedom: Freedom<T>,
     /// Multipliers of quaternions, and what each takes of the others.
     attitudes: Vec<(usize, Vec<T>)>,
 }

@@ -16,7 +16,7 @@
 
 use super::shape::Extent;
 use super::{Dynamics, EvaluationError};
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, derivatives};
 use crate::linear::{VanishingCombinations, solve_small};
 use crate::mode::{Direction, FrictionMode, Sliding};
 use crate::program::{MAX_ORDER, Operation};
@@ -35,6 +35,9 @@ const SETTLED: f64 = 1e-14;
 
 /// ṡ above this share of what friction does to it is no error.
 const CLEARLY: f64 = 1e-3;
+
+/// What rounding leaves of an equation for turns that says nothing, relative.
+const NO_ANSWER: f64 = 1e-11;
 
 /// Coefficients of a direction.
 type Series<T> = [[T; 2]; MAX_ORDER + 2];
@@ -143,18 +146,24 @@ pub(crate) fn cross<T: Scalar>(a: [T; 2], b: [T; 2]) -> T {
 
 /// The direction in which a slip goes to zero, from the slip at parts of the way there, 1 its end: chords over ever shorter
 /// parts, extrapolated. None if it does not change.
-pub(crate) fn approach(mut slip: impl FnMut(f64) -> [f64; 2]) -> Option<[f64; 2]> {
+pub(crate) fn approach<T: Scalar>(mut slip: impl FnMut(f64) -> [T; 2]) -> Option<[T; 2]> {
     const PART: f64 = 1e-3;
     let end = slip(1.0);
-    let mut along = [0.0; 2];
+    let mut along = [T::zero(); 2];
     for (weight, parts) in [(3.0, 1.0), (-1.5, 2.0), (1.0 / 3.0, 3.0)] {
         let before = slip(1.0 - parts * PART);
         for ((along, before), end) in along.iter_mut().zip(before).zip(end) {
-            *along += weight * (before - end);
+            *along += T::from_f64(weight) * (before - end);
         }
     }
-    let length = along[0].hypot(along[1]);
-    (length > 0.0).then(|| along.map(|x| x / length))
+    let length = along[0].value().hypot(along[1].value());
+    if !(length > 0.0) {
+        return None;
+    }
+    // About 1, so that the square is: a slip may be very small.
+    let along = along.map(|x| x / T::from_f64(length));
+    let unit = dot(along, along).sqrt();
+    Some(along.map(|x| T::from_f64(x.value()) + derivatives(x / unit)))
 }
 
 impl<T: Scalar> Dynamics<T> {
@@ -415,7 +424,7 @@ impl<T: Scalar> Dynamics<T> {
                 open,
                 ..
             } = &mut self.slip_directions;
-            open.find(matrix, strength);
+            open.find(matrix, strength, NO_ANSWER);
             let higher = !open.is_empty();
             if higher && k + 2 > MAX_ORDER {
                 return Ok(());

@@ -54,6 +54,22 @@ pub fn turns(c: &[f64], out: &mut RootList) {
     roots(&slope[..c.len().saturating_sub(1)], out);
 }
 
+/// Where Σ cₖ sᵏ turns next to its falling root at `root`, and how far below zero; nothing if it falls by more than `most`.
+pub fn dip(c: &[f64], root: f64, most: f64) -> Option<(f64, f64)> {
+    /// Newton's iteration is as good as exact after so many steps, where the curve is a parabola but for a little.
+    const STEPS: usize = 4;
+    let (mut turn, mut depth) = (root, 0.0);
+    for _ in 0..STEPS {
+        let [value, slope, curvature] = Powers(c).taylor(turn);
+        turn -= slope / curvature;
+        depth = 0.5 * slope * slope / curvature - value;
+        if !(curvature > 0.0 && depth <= most) {
+            return None;
+        }
+    }
+    (turn > root).then_some((turn, depth))
+}
+
 /// By how much Σ cₖ sᵏ may be off on [0, 1] without another number of roots there: its smallest size at the ends and where it turns.
 ///
 /// # Panics

@@ -41,6 +41,11 @@ impl<T: Scalar> Integrator<T> {
         matches!(self, Self::RungeKutta(method) if method.is_adaptive())
     }
 
+    /// Whether it is implicit and chooses its steps, so that motions that are damped fast do not bound them.
+    pub fn is_stiff(&self) -> bool {
+        matches!(self, Self::Radau(_))
+    }
+
     /// Whether the end of a step is of a higher order than what lies before it.
     pub fn is_best_at_end(&self) -> bool {
         matches!(self, Self::Radau(_))

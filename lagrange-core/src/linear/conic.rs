@@ -12,6 +12,7 @@
 //! carried on at all, and W and λ are, so that fourteen digits are right. References: Andersen, Roos & Terlaky 2003, Mathematical
 //! Programming 95, 249; Vandenberghe 2010, The CVXOPT linear and quadratic cone program solvers, sections 4 to 6.
 
+use crate::arithmetic::Scalar;
 use core::ops::Range;
 use nalgebra::{DMatrix, DVector};
 
@@ -65,6 +66,20 @@ impl Cone {
     }
 }
 
+/// x ∘ y in the product K of these cones.
+pub(super) fn product<T: Scalar>(cones: &[Cone], x: &DVector<T>, y: &DVector<T>) -> DVector<T> {
+    let mut out = x.component_mul(y);
+    for &cone in cones {
+        if let Cone::SecondOrder(i) = cone {
+            out[i] = x[i] * y[i] + x[i + 1] * y[i + 1] + x[i + 2] * y[i + 2];
+            for k in i + 1..i + 3 {
+                out[k] = x[i] * y[k] + y[i] * x[k];
+            }
+        }
+    }
+    out
+}
+
 /// A problem.
 #[derive(Clone, Debug)]
 pub(crate) struct ConicProgram {
@@ -116,13 +131,13 @@ impl ConicProgram {
                 factors: self.factors(&scaling),
             };
             // Straight to the end, to see how far that goes.
-            let toward = -self.product(&lambda, &lambda);
+            let toward = -product(&self.cones, &lambda, &lambda);
             let Some(affine) = self.step(&scaling, &equations, &toward) else {
                 break;
             };
             let part = self.longest(&lambda, &affine).min(1.0);
             let centre = (1.0 - part).powi(3) * gap;
-            let bend = self.product(&affine.s, &affine.z);
+            let bend = product(&self.cones, &affine.s, &affine.z);
             let Some(step) = self.step(
                 &scaling,
                 &equations,
@@ -145,20 +160,6 @@ impl ConicProgram {
             e[cone.first()] = 1.0;
         }
         e
-    }
-
-    /// x ∘ y
-    fn product(&self, x: &DVector<f64>, y: &DVector<f64>) -> DVector<f64> {
-        let mut out = x.component_mul(y);
-        for &cone in &self.cones {
-            if let Cone::SecondOrder(i) = cone {
-                out[i] = x[i] * y[i] + x[i + 1] * y[i + 1] + x[i + 2] * y[i + 2];
-                for k in i + 1..i + 3 {
-                    out[k] = x[i] * y[k] + y[i] * x[k];
-                }
-            }
-        }
-        out
     }
 
     /// u of λ ∘ u = y.

@@ -13,36 +13,45 @@
 
 use super::lu::{Lu, dot, negligible};
 use crate::arithmetic::Scalar;
+use nalgebra::DVector;
 
 /// Forces that have no effect, as the row-major projector P onto them: λ is as good as λ + P y.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Freedom {
+pub(crate) struct Freedom<T> {
     size: usize,
-    projector: Vec<f64>,
+    projector: Vec<T>,
 }
 
 /// A force that can be changed by no more than this share of a change is determined.
 const DETERMINED: f64 = 1e-9;
 
-impl Freedom {
+impl<T: Scalar> Freedom<T> {
     /// Number of forces.
     pub(crate) fn size(&self) -> usize {
         self.size
     }
 
     /// Row `i` of P.
-    pub(crate) fn row(&self, i: usize) -> &[f64] {
+    pub(crate) fn row(&self, i: usize) -> &[T] {
         &self.projector[i * self.size..(i + 1) * self.size]
+    }
+
+    /// What of a linear function of the forces, (index, factor), is not determined: P a.
+    pub(crate) fn part(&self, terms: &[(usize, T)]) -> DVector<T> {
+        DVector::from_fn(self.size, |j, _| {
+            let terms = terms.iter();
+            terms.fold(T::zero(), |sum, &(i, a)| sum + a * self.row(i)[j])
+        })
     }
 
     /// Whether force `i` is determined.
     pub(crate) fn is_determined(&self, i: usize) -> bool {
-        self.row(i)[i] <= DETERMINED
+        self.row(i)[i].value() <= DETERMINED
     }
 
     /// How many forces can be chosen: the trace of P.
     pub(crate) fn dimension(&self) -> usize {
-        let trace: f64 = (0..self.size).map(|i| self.row(i)[i]).sum();
+        let trace: f64 = (0..self.size).map(|i| self.row(i)[i].value()).sum();
         trace.round() as usize
     }
 }
@@ -64,7 +73,7 @@ pub(crate) fn least_norm<T: Scalar>(
     coordinates: usize,
     rank: Rank,
     forces: &mut [T],
-) -> Freedom {
+) -> Freedom<T> {
     let (n, m) = (coordinates, forces.len());
     let element = |i: usize, j: usize| columns[j * n + i];
     // Square with zeros, so that the same factorization serves; columns scaled to 1. Rows keep their sizes: of one that says nothing here,
@@ -111,16 +120,16 @@ pub(crate) fn least_norm<T: Scalar>(
         .collect();
     let mut freedom = Freedom {
         size: m,
-        projector: vec![0.0; m * m],
+        projector: vec![T::zero(); m * m],
     };
     for (i, force) in forces.iter_mut().enumerate() {
-        freedom.projector[i * m + i] = 1.0;
+        freedom.projector[i * m + i] = T::one();
         *force = T::zero();
         for ((row, square), &part) in basis.iter().zip(&parts) {
             *force += part * row[i];
-            let share = (row[i] / *square).value();
+            let share = row[i] / *square;
             let others = freedom.projector[i * m..].iter_mut().zip(row);
-            others.for_each(|(x, y)| *x -= share * y.value());
+            others.for_each(|(x, &y)| *x -= share * y);
         }
     }
     freedom

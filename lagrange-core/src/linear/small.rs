@@ -2,9 +2,6 @@
 
 use crate::arithmetic::Scalar;
 
-/// What is left of an equation, relative to its size, if it says nothing.
-const NOTHING: f64 = 1e-6;
-
 /// Solves a small system in place, by Gauss elimination with row exchanges. False if it is singular.
 pub(crate) fn solve_small<T: Scalar>(matrix: &mut [T], right: &mut [T]) -> bool {
     let n = right.len();
@@ -44,8 +41,8 @@ pub(crate) struct VanishingCombinations<T> {
 }
 
 impl<T: Scalar> VanishingCombinations<T> {
-    /// Finds those of the rows of `matrix`, which have these sizes.
-    pub(crate) fn find(&mut self, matrix: &[T], sizes: &[f64]) {
+    /// Finds those of the rows of `matrix`, which have these sizes: what is left of one that says nothing is no more than `nothing`, relative.
+    pub(crate) fn find(&mut self, matrix: &[T], sizes: &[f64], nothing: f64) {
         let n = sizes.len();
         let Self {
             left,
@@ -62,7 +59,7 @@ impl<T: Scalar> VanishingCombinations<T> {
         open.clear();
         open.extend(0..n);
         while let Some((place, column, largest)) = largest(left, open, sizes)
-            && largest > NOTHING
+            && largest > nothing
         {
             let pivot = open.swap_remove(place);
             for &i in &*open {

@@ -9,8 +9,7 @@
 //! that gets shorter and shorter.
 
 use super::Run;
-use super::instant::derivatives;
-use crate::arithmetic::{Scalar, rounding};
+use crate::arithmetic::{Scalar, derivatives, rounding};
 use crate::error::Error;
 use crate::mode::FrictionMode;
 use crate::modes::facts::SwitchFacts;

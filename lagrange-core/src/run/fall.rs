@@ -39,6 +39,18 @@ impl Fall {
         }
     }
 
+    /// The time from `before` until it has fallen to this share of what it was there, in units of that between both, if it goes on along its line.
+    pub fn until(&self, share: f64) -> f64 {
+        let change = self.change();
+        let nearest = -dot(self.before, change) / dot(change, change);
+        let passes = cross(self.before, change).abs() / self.length();
+        let falls = nearest > 0.0 && passes < share * self.before[0].hypot(self.before[1]);
+        match falls {
+            true => (1.0 - share) * nearest,
+            false => f64::INFINITY,
+        }
+    }
+
     /// The time that is left, in units of that between both.
     pub fn left(&self) -> f64 {
         -dot(self.now, self.change()) / dot(self.change(), self.change())

@@ -6,7 +6,7 @@
 
 use super::Run;
 use super::hit::Hit;
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, derivatives};
 use crate::integrate::polynomial_derivative as slope;
 use crate::integrate::polynomial_value as value;
 use crate::modes::exact::{exact, slip};
@@ -15,14 +15,6 @@ use core::ops::Range;
 
 /// Newton steps beyond the order of the derivatives, because the slope is known to interpolation only.
 const MORE_STEPS: usize = 2;
-
-/// What a number has beside its value.
-pub(super) fn derivatives<T: Scalar>(x: T) -> T {
-    if T::DERIVATIVES == 0 {
-        return T::zero();
-    }
-    x - T::from_f64(x.value())
-}
 
 impl<T: Scalar> Run<T> {
     /// The part of the step at which it ends, with derivatives; the state there in `scratch`, evaluated if that at the located
@@ -62,8 +54,25 @@ impl<T: Scalar> Run<T> {
                 }
             }
         };
+        let slope = match guard {
+            Guard::Composite(_) => self.slope_before(guard, end).unwrap_or(slope),
+            _ => slope,
+        };
         let s = self.root(guard, slope, end);
         self.settle_end(s, end)
+    }
+
+    /// What a guard changes by per step just before part `end` of the step. A composite guard that has been found anew at its root has other weights
+    /// than its polynomial.
+    fn slope_before(&mut self, guard: Guard, end: f64) -> Option<f64> {
+        /// The share of the way to the root over which the slope is taken.
+        const SHARE: f64 = 1e-4;
+        let [before, there] = [1.0 - SHARE, 1.0].map(|share| T::from_f64(share * end));
+        let (before, there) = (
+            self.exact_guard(guard, before)?,
+            self.exact_guard(guard, there)?,
+        );
+        Some((there - before).value() / (SHARE * end))
     }
 
     /// A located root of `guard`, which changes by `slope` per step there, with derivatives. The value stays.
@@ -107,6 +116,9 @@ impl<T: Scalar> Run<T> {
         self.dynamics.value_along(time, q, v).ok()?;
         if matches!(guard, Guard::Stop(..) | Guard::Mark(..) | Guard::Branch(_)) {
             self.dynamics.report_value();
+        }
+        if let Guard::Composite(_) = guard {
+            self.take_admissible_forces();
         }
         Some(exact(
             guard,

@@ -46,6 +46,8 @@ pub(super) struct Locator<T> {
     pub(super) rests: Vec<Rest>,
     /// The mode in which these slips are at rest.
     pub(super) resting: Mode,
+    /// Slips of two components at the start of a step.
+    pub(super) slips: Vec<(usize, [f64; 2])>,
     /// Velocities a little before they come to rest.
     pub(super) earlier: Vec<T>,
     /// Per stop, which of its terms are below zero.
@@ -77,6 +79,7 @@ impl<T: Scalar> Locator<T> {
             refuted: Vec::new(),
             rests: Vec::new(),
             resting: mode.clone(),
+            slips: Vec::with_capacity(d.frictions.len()),
             earlier: vec![T::default(); d.coordinates.len()],
             stop_below: nowhere(d.stops),
             mark_below: nowhere(d.marks),
@@ -173,6 +176,9 @@ impl<T: Scalar> Run<T> {
 
     /// Where a guard of the mode falls through zero: (part of the step, half width of the enclosure).
     fn fall(&self, guard: Guard, curve: &[f64]) -> Option<(f64, f64)> {
+        if self.stays_at_edge(guard, curve) {
+            return None;
+        }
         if is_edge_in_flight(guard, &self.now.mode) {
             return self.comes_onto(guard, curve);
         }
@@ -238,9 +244,9 @@ impl<T: Scalar> Run<T> {
             return None;
         }
         let judged = deflate(curve, known);
-        if let (0, [start, rate, ..]) = (known, judged)
+        if let (0, [start, others @ ..]) = (known, judged)
             && *start < 0.0
-            && *rate > 0.0
+            && let Some(first) = rises_with(others)
         {
             // A root that rounding has moved across the border between two steps, or a gap that parts from where it was
             // located, shows as a negative start from which the guard rises.
@@ -250,7 +256,7 @@ impl<T: Scalar> Run<T> {
                 _ => 1e-13 * size,
             };
             if *start > -blur {
-                return Some(deflate(judged, 1));
+                return Some(deflate(judged, 1 + first));
             }
         }
         Some(judged)
@@ -268,6 +274,14 @@ impl<T: Scalar> Run<T> {
                 let curve = self.judged(guard, curve);
                 curve.is_some_and(|curve| hides_its_start(guard, curve))
             })
+    }
+}
+
+/// The coefficient beyond the start with which a guard rises from there: the rate, or the first that is more than rounding. Nothing if it falls.
+fn rises_with(others: &[f64]) -> Option<usize> {
+    match others.first() {
+        Some(rate) if *rate > 0.0 => Some(0),
+        _ => leading(others, RESOLUTION).filter(|&first| others[first] > 0.0),
     }
 }
 

@@ -13,6 +13,7 @@ mod extremal;
 mod failure;
 mod fall;
 mod feasible;
+mod grazing;
 mod guard_polynomials;
 mod hidden;
 mod hit;

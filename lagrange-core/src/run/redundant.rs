@@ -336,6 +336,16 @@ impl<T: Scalar> Run<T> {
         }
     }
 
+    /// Puts forces that keep their bounds in the place of those of the last value of the dynamics. What is open in forces cancels in the value of a
+    /// composite guard, but not in its derivatives: coefficients and directions change as well. They are those of the margin that admissible
+    /// forces leave (the envelope theorem).
+    pub(super) fn take_admissible_forces(&mut self) {
+        let redundant = &mut self.switcher.redundant;
+        redundant.follow(&mut self.dynamics);
+        let forces = redundant.forces(&self.dynamics);
+        self.dynamics.replace_forces(&forces);
+    }
+
     /// How far the composite guards that have fallen are from the zeros that they were located as, beside what drives now.
     pub(super) fn residue_of_composites(&mut self) -> f64 {
         let composites = &self.locator.polynomials.composites;

@@ -18,6 +18,9 @@ use core::ops::ControlFlow::Break;
 /// Gaps that other gaps hold at zero are off by no more than this, relative to what makes them.
 const ROUNDING: f64 = 1e-12;
 
+/// At so many parts of a step it is seen whether it stays at an edge.
+const PLACES: usize = 8;
+
 /// Whether a guard is the edge of a contact that is open in a mode.
 pub(super) fn is_edge_in_flight(guard: Guard, mode: &Mode) -> bool {
     matches!(guard, Guard::Region(c) if !mode.contacts[c])
@@ -52,6 +55,15 @@ impl<T: Scalar> Run<T> {
     /// Whether the motion is at the edge of contact `c`, of this curve, and goes out.
     fn leaves(&self, c: usize, edge: &[f64], s: f64) -> bool {
         value(edge, s).abs() <= self.touching(c) && slope(edge, s) < 0.0
+    }
+
+    /// Whether a guard is an edge that the motion is at over the whole step, as far as rounding tells: as what has come to rest there.
+    pub(super) fn stays_at_edge(&self, guard: Guard, curve: &[f64]) -> bool {
+        // Coefficients of an interpolation may be large and cancel.
+        let mut sizes = (0..=PLACES).map(|k| value(curve, k as f64 / PLACES as f64).abs());
+        let polynomials = &self.locator.polynomials;
+        let vanishes = |size| size <= polynomials.rounding(size, guard, &self.dynamics);
+        matches!(guard, Guard::Region(_)) && sizes.all(vanishes)
     }
 
     /// Where the motion enters the region of an open contact whose gap vanishes there: (part of the step, half width).
@@ -99,9 +111,10 @@ impl<T: Scalar> Run<T> {
                 &self.dynamics,
             ));
             let passed = gap < -blur.max(self.touching(c)) || !self.within_region(guard, end);
-            // What reaches the edge and the surface at once passes by it.
+            // What reaches the edge and the surface at once passes by it, unless it has been found to come onto it.
             let edge = self.locator.polynomials.of(Guard::Region(c));
             let passes = gap.abs() <= self.touching(c)
+                && !self.locator.fallen.contains(&Guard::Region(c))
                 && slope(curve, end) < 0.0
                 && edge.is_some_and(|edge| self.leaves(c, edge, end));
             passing.extend(passes.then_some(c));

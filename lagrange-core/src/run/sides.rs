@@ -84,7 +84,9 @@ impl<T: Scalar> Run<T> {
             {
                 let size: f64 = curve.iter().map(|c| c.abs()).sum();
                 let condition = self.dynamics.motion(d.branches[b].guard).value();
-                if condition.abs() > LOCATED * size {
+                let polynomials = &self.locator.polynomials;
+                let rounding = polynomials.rounding(condition.abs(), *guard, &self.dynamics);
+                if condition.abs() > LOCATED * size + rounding {
                     (facts.balanced[b], jumped) = (false, true);
                 }
             }

@@ -7,9 +7,8 @@
 
 use super::Run;
 use super::fall::Fall;
-use super::instant::derivatives;
 use super::stepping::{JUST_BEFORE, Stepper};
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, derivatives};
 use crate::dynamics::{approach, dot, rounding_of_residuals};
 use crate::error::Error;
 use crate::mode::{Direction, FrictionMode, Sliding};
@@ -31,8 +30,11 @@ const BLUR: f64 = 16.0;
 const ERRORS: f64 = 2.0;
 /// Friction that is below its limit by so many tolerances holds.
 const CLEAR: f64 = 100.0;
-/// Other methods leave a step to Taylor series if it would be longer than this part of the time to rest.
+/// A step of another method than Taylor series in which a slip that goes on as it begins falls below this share of itself, or changes by as much, is too
+/// long.
 const NEAR: f64 = 0.5;
+/// How a slip goes on is seen from this share of a step.
+const SOON: f64 = 1e-3;
 
 /// A slip that comes to rest.
 #[derive(Clone, Copy, Debug)]
@@ -40,6 +42,8 @@ pub(super) struct Rest {
     pub friction: usize,
     /// Its last direction.
     pub along: [f64; 2],
+    /// The part of the last step at which it has that; 0 if it has the direction that the slip was known to have.
+    end: f64,
     /// Time that is left, s.
     left: f64,
     /// Change of the slip along `along` per second.
@@ -295,23 +299,48 @@ impl<T: Scalar> Run<T> {
         if fall.speed() > NOTHING * size && self.still_changes(f, &fall, allowed) {
             return None;
         }
-        let Self {
-            dynamics, stepper, ..
-        } = self;
-        let Stepper { step, scratch, .. } = stepper;
-        let along = approach(|part| {
-            let s = T::from_f64(part * end);
-            step.state_into(s, &mut scratch.q, &mut scratch.v);
-            dynamics.tape(step.time(s), &scratch.q, &scratch.v);
-            dynamics.slip(f).map(|s| s.value())
-        })?;
+        let along = self.direction_into_rest(f, T::from_f64(end))?;
+        let along = along.map(T::value);
         let interval = (1.0 - JUST_BEFORE) * end * self.stepper.step.h.value();
         Some(Rest {
             friction: f,
             along,
+            end,
             left: fall.left() * interval,
             slope: dot(along, fall.change()) / interval,
         })
+    }
+
+    /// The direction in which the slip of friction `f` goes to zero at part `end` of the step.
+    fn direction_into_rest(&mut self, f: usize, end: T) -> Option<[T; 2]> {
+        let Self {
+            dynamics, stepper, ..
+        } = self;
+        let Stepper { step, scratch, .. } = stepper;
+        approach(|part| {
+            let s = T::from_f64(part) * end;
+            step.state_into(s, &mut scratch.q, &mut scratch.v);
+            dynamics.tape(step.time(s), &scratch.q, &scratch.v);
+            dynamics.slip(f)
+        })
+    }
+
+    /// The last directions of the slips in `rests` by friction, at the instant of rest, which moves; none of numbers without derivatives.
+    fn exact_directions(&mut self) -> Vec<(usize, [T; 2])> {
+        let mut directions = Vec::new();
+        if T::DERIVATIVES == 0 {
+            return directions;
+        }
+        let step = &self.stepper.step;
+        let moves = derivatives((self.now.t - step.t) / step.h);
+        for i in 0..self.locator.rests.len() {
+            let Rest { friction, end, .. } = self.locator.rests[i];
+            if end > 0.0 {
+                let along = self.direction_into_rest(friction, T::from_f64(end) + moves);
+                directions.extend(along.map(|along| (friction, along)));
+            }
+        }
+        directions
     }
 
     /// The slip of friction `f` at part `end` of the step, where `scratch` is then, and just before it, from where `earlier` has the velocities.
@@ -361,6 +390,7 @@ impl<T: Scalar> Run<T> {
 
     /// The state at rest exactly, and the forces just before, in the directions that the slips had.
     pub(super) fn come_to_rest(&mut self) -> Result<(), Error> {
+        let directions = self.exact_directions();
         self.locator.resting.clone_from(&self.now.mode);
         for rest in &self.locator.rests {
             self.locator.resting.frictions[rest.friction] = FrictionMode::Stick;
@@ -375,6 +405,9 @@ impl<T: Scalar> Run<T> {
             self.locator.resting.turn(rest.friction, last);
         }
         self.dynamics.set_mode(&self.locator.resting);
+        for (friction, along) in directions {
+            self.dynamics.set_slip_direction(friction, along);
+        }
         self.locator.rests.clear();
         self.evaluate()
     }
@@ -392,6 +425,7 @@ impl<T: Scalar> Run<T> {
         self.locator.rests.push(Rest {
             friction: f,
             along: self.dynamics.slip_direction(f).map(|x| x.value()),
+            end: 0.0,
             left: 0.0,
             slope: 0.0,
         });
@@ -432,30 +466,52 @@ impl<T: Scalar> Run<T> {
         }
     }
 
-    /// Whether the slip of a friction with two components vanishes at the start of a step of length `h`, or may in it:
-    /// such a step is left to Taylor series.
-    pub(super) fn slip_may_vanish(&mut self, h: f64) -> bool {
-        if !(0..self.now.mode.frictions.len()).any(|f| self.turns(f)) {
-            return false;
-        }
-        if self.now.mode.has_incipient_slip() {
-            return true;
+    /// How much of a step of length `h` the slips of frictions with two components allow: nothing where one begins; else as long as none vanishes, or, of
+    /// methods that are not `stiff`, changes much.
+    pub(super) fn longest_of_slips(&mut self, h: f64, stiff: bool) -> f64 {
+        if !self.now.mode.has_turning_slip() {
+            return h;
         }
         let State { q, v, .. } = &self.now.state;
-        if self.dynamics.value(self.now.t, q, v).is_err() {
-            return true;
+        if self.now.mode.has_incipient_slip() || self.dynamics.value(self.now.t, q, v).is_err() {
+            return 0.0;
         }
-        (0..self.now.mode.frictions.len()).any(|f| {
-            let row = self.description().frictions[f].row;
-            let falls = |row: usize| {
-                let change = |j: usize| self.dynamics.acceleration()[j].value().abs();
-                self.dynamics.size_of_row(row, change)
+        let mut slips = core::mem::take(&mut self.locator.slips);
+        slips.clear();
+        let turning = (0..self.now.mode.frictions.len()).filter(|&f| self.turns(f));
+        slips.extend(turning.map(|f| (f, self.slip(f))));
+        self.tape_soon(SOON * h);
+        let longest = slips.iter().fold(h, |longest, &(f, before)| {
+            let fall = Fall {
+                before,
+                now: self.slip(f),
             };
-            self.turns(f) && {
-                let slip = self.dynamics.slip(f).map(|s| s.value());
-                let speed = slip[0].hypot(slip[1]);
-                NEAR * speed < h * falls(row).hypot(falls(row + 1))
-            }
-        })
+            let parts = match stiff {
+                true => fall.until(NEAR),
+                false => NEAR * before[0].hypot(before[1]) / fall.length(),
+            };
+            longest.min(SOON * h * parts)
+        });
+        self.locator.slips = slips;
+        longest
+    }
+
+    /// The slip of friction `f` at the state of the last tape.
+    fn slip(&self, f: usize) -> [f64; 2] {
+        self.dynamics.slip(f).map(|s| s.value())
+    }
+
+    /// Tapes where the motion will be soon, on the parabola of the accelerations that `dynamics` holds.
+    fn tape_soon(&mut self, after: f64) {
+        let (after, half) = (T::from_f64(after), T::from_f64(0.5));
+        let State { q, v, .. } = &mut self.stepper.scratch;
+        let now = self.now.state.q.iter().zip(&self.now.state.v);
+        let moved = now.zip(self.dynamics.acceleration());
+        for ((q, v), ((&q_now, &v_now), &a)) in q.iter_mut().zip(v).zip(moved) {
+            *q = q_now + after * (v_now + half * after * a);
+            *v = v_now + after * a;
+        }
+        let State { q, v, .. } = &self.stepper.scratch;
+        self.dynamics.tape(self.now.t + after, q, v);
     }
 }

@@ -288,11 +288,12 @@ impl<T: Scalar> Run<T> {
             self.rest_where_impact_leaves_nothing(facts)?;
             self.take_sides_after_impact(facts);
         }
-        let leaves_an_edge = |guard: &Guard| matches!(guard, Guard::Region(_));
+        // What leaves an edge may be on another surface, and where a surface bends by a branch it may come to rest where a body is.
+        let of_surfaces = |guard: &Guard| matches!(guard, Guard::Region(_) | Guard::Branch(_));
         // A gap that has just begun to open may still be as good as closed, where something else changes at once; and what lies on a surface without
         // a load may be loaded again.
         let near_surfaces = arrives || self.locator.opened || self.locator.lies;
-        if near_surfaces || facts.located.iter().any(leaves_an_edge) {
+        if near_surfaces || facts.located.iter().any(of_surfaces) {
             self.take_what_touches(facts);
         }
         if !hit {

@@ -9,12 +9,7 @@ use crate::arithmetic::{Scalar, epsilon};
 use crate::dynamics::Dynamics;
 use crate::error::Error;
 use crate::integrate::taylor::{self, Verdict};
-use crate::integrate::{horner, onto_step, polynomial_derivative, powers_of};
-use crate::modes::guard::Guard;
-use crate::trajectory::State;
-
-/// How far beyond a hit its gap is looked at, in units of the tolerance.
-const BEYOND: f64 = 10.0;
+use crate::integrate::{onto_step, powers_of};
 
 /// Where rounding hides how a guard begins, the step is made shorter by this.
 const CLOSER_LOOK: f64 = 0.1;
@@ -101,6 +96,9 @@ impl<T: Scalar> Run<T> {
             if let Some(shorter) = self.hides(looked, order, shortened) {
                 shortened += 1;
                 h = shorter;
+                continue;
+            }
+            if self.passes_over_touches(&hit, moves / h) {
                 continue;
             }
             let turns = self.gap_that_turns(&hit, moves / h);
@@ -359,62 +357,6 @@ impl<T: Scalar> Run<T> {
             self.settings.tolerance,
             self.locator.known(hit),
         )
-    }
-
-    /// The contact that is hit by its polynomial but whose gap rises beyond, as far as the motion is known there, up to part `known` of the
-    /// step: a distance √(x² + y²), which has no direction where it vanishes.
-    ///
-    /// Positions are known to the tolerance, so that is what is looked at beyond the hit; gaps in another unit, to what is left of them there.
-    fn gap_that_turns(&mut self, hit: &Hit, known: f64) -> Option<&'static str> {
-        let Hit::Guards(end) = *hit else {
-            return None;
-        };
-        for k in 0..self.locator.fallen.len() {
-            let guard = self.locator.fallen[k];
-            let Guard::Gap(contact) = guard else {
-                continue;
-            };
-            let index = self.locator.polynomials.index_of(guard)?;
-            self.state_at_end(end);
-            let q = self.stepper.scratch.q.iter();
-            let extent = self.locator.polynomials.extents[contact];
-            let size = q.fold(extent, |size, q| size.max(q.value().abs()));
-            let depth = BEYOND * self.settings.tolerance.max(1e-13) * size;
-            let turns = self.turns_beyond(index, end, depth, known) && {
-                let deeper = BEYOND * self.gap_at(index, end).abs();
-                deeper <= depth || self.turns_beyond(index, end, deeper, known)
-            };
-            if turns {
-                return Some(self.description().contacts[contact].name);
-            }
-        }
-        None
-    }
-
-    /// Whether the gap that guard number `index` watches is above zero where its curve is as far below as `depth`, behind its root at part `end` of
-    /// the step.
-    fn turns_beyond(&mut self, index: usize, end: f64, depth: f64, known: f64) -> bool {
-        let Some((_, curve)) = self.locator.polynomials.get(index) else {
-            return false;
-        };
-        let beyond = end + depth / polynomial_derivative(curve, end).abs();
-        let fallen = horner(curve, beyond);
-        if beyond > known || fallen > -0.5 * depth {
-            return false;
-        }
-        let gap = self.gap_at(index, beyond);
-        // A distance is then what its polynomial is, of the other sign; where the series of a gap has stopped converging it is something else.
-        gap > 0.5 * depth && (gap + fallen).abs() < 0.5 * depth
-    }
-
-    /// The gap that guard number `index` watches, as declared, at part `s` of the step.
-    fn gap_at(&mut self, index: usize, s: f64) -> f64 {
-        self.state_at_end(s);
-        let State { q, v, .. } = &self.stepper.scratch;
-        self.dynamics
-            .tape(self.stepper.step.time(T::from_f64(s)), q, v);
-        let curves = &self.locator.polynomials;
-        curves.value(index, &self.now.mode, &self.dynamics)
     }
 
     /// Scales the series, up to `degree`, onto a step of length `h`; the state at its end is left in `scratch`, the changes of

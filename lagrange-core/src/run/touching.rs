@@ -1,18 +1,21 @@
 //! Contacts that touch beside those that have closed: their gaps vanish, or are what rounding has left.
 
 use super::Run;
-use crate::arithmetic::{Scalar, rounding};
+use crate::arithmetic::{Scalar, epsilon, rounding};
 use crate::effects::Item;
 use crate::modes::facts::SwitchFacts;
 use crate::modes::guard::Guard;
 
 /// A body that is closed at some points may be off by so many times more at others.
-const LEVER: f64 = 4.0;
+pub(super) const LEVER: f64 = 4.0;
 
 /// A gap that comes back to zero after some steps is off by so many times what rounding makes of it at one instant,
 const DRIFT: f64 = 50.0;
 /// and by no more than it closes by in this share of the time: one that closes as slowly as it is small closes later.
 const INSTANT: f64 = 1e-12;
+
+/// Instants are known to so many units of the rounding of time.
+const UNITS_OF_TIME: f64 = 8.0;
 
 /// What is no larger than this beside the terms that make it is what rounding has left of zero.
 pub(super) const ROUNDING: f64 = 1e-13;
@@ -74,7 +77,18 @@ impl<T: Scalar> Run<T> {
         let (rate, size) = self.rate(contact.row);
         self.is_in_region(c)
             && self.gap(c).abs() <= rounding::<T>(ROUNDING) * self.extent(c) + off
-            && rate.abs() <= rounding::<T>(ROUNDING) * size
+            && (rate.abs() <= rounding::<T>(ROUNDING) * size
+                || rate.abs() <= self.rounding_of_time_in_rate(c))
+    }
+
+    /// What the resolution of time makes of the rate of the gap of contact `c`, by what its polynomial bent in the last step.
+    fn rounding_of_time_in_rate(&self, c: usize) -> f64 {
+        let curve = self.locator.polynomials.of(Guard::Gap(c));
+        let terms = curve.unwrap_or_default().iter().enumerate().skip(2);
+        let (now, h) = (self.now.t.value(), self.stepper.step.h.value());
+        let end = (now - self.stepper.step.t.value()) / h;
+        let bends = terms.map(|(k, c)| (k * (k - 1)) as f64 * c * end.powi(k as i32 - 2));
+        UNITS_OF_TIME * epsilon::<T>() * now.abs() * bends.sum::<f64>().abs() / (h * h)
     }
 
     /// What the gap of contact `c` changes by when each coordinate x changes by 1, or |x| if that is more; `dynamics` holds the numbers of its row.

@@ -19,6 +19,9 @@ pub(super) const RESOLUTION: f64 = 1e-13;
 /// So many units of rounding are between the time of a root and of the same one when the next step begins.
 const UNITS_OF_TIME: f64 = 64.0;
 
+/// Parts of the way to a mark at which its forces are looked for.
+const HERE_OR_BESIDE: [f64; 4] = [1.0, 0.999, 0.9, 0.5];
+
 /// A term of a stop or of a mark over the step.
 #[derive(Clone, Copy)]
 struct Term<'c> {
@@ -158,7 +161,7 @@ impl<T: Scalar> Run<T> {
                     visit(s);
                 }
             };
-            if was_below && known.is_none() && curve.first().is_some_and(|c| *c >= 0.0) {
+            if was_below && known.is_none() && begins_true(curve, self.resolution_of_time()) {
                 consider(0.0);
             }
             find_root(curve, |root| {
@@ -249,12 +252,20 @@ impl<T: Scalar> Run<T> {
         for &(mark, s) in &marks {
             let s = self.exact_mark(mark, s);
             let mut state = core::mem::take(&mut self.stepper.scratch);
-            self.stepper.step.state_into(s, &mut state.q, &mut state.v);
-            let time = self.stepper.step.time(s);
             self.now.valued = false;
-            if self.dynamics.value_along(time, &state.q, &state.v).is_ok() {
-                self.log_watch(Subject::Mark(mark), EventKind::Mark, time, &state);
+            let (step, dynamics) = (&self.stepper.step, &mut self.dynamics);
+            // At a pole, where an angle has no inertia, forces are known beside it only.
+            for part in HERE_OR_BESIDE {
+                let place = s * T::from_f64(part);
+                step.state_into(place, &mut state.q, &mut state.v);
+                let known = dynamics.value_along(step.time(place), &state.q, &state.v);
+                if known.is_ok() {
+                    break;
+                }
             }
+            step.state_into(s, &mut state.q, &mut state.v);
+            let time = step.time(s);
+            self.log_watch(Subject::Mark(mark), EventKind::Mark, time, &state);
             self.stepper.scratch = state;
         }
         self.locator.marks = marks;
@@ -319,6 +330,16 @@ fn is_zero(curve: &[f64], s: f64, now: f64, resolution: f64) -> bool {
 pub(super) fn leading(curve: &[f64], resolution: f64) -> Option<usize> {
     let noise = resolution * curve.iter().map(|c| c.abs()).sum::<f64>();
     curve.iter().position(|c| c.abs() > noise)
+}
+
+/// Whether a curve begins above zero, or rises through it within the resolution of time: it may have come there without a step, with the last of
+/// impacts that accumulate.
+fn begins_true(curve: &[f64], resolution: f64) -> bool {
+    match *curve {
+        [start, rate, ..] => start >= 0.0 || -start <= resolution * rate,
+        [start] => start >= 0.0,
+        [] => false,
+    }
 }
 
 /// Whether a curve begins below zero, or goes there from zero. Nothing if it stays zero, as far as rounding can tell.

@@ -159,11 +159,12 @@ impl<'a, T: Scalar> EnergyMeter<'a, T> {
         self.energies_entered(t, mode, state)
     }
 
-    /// Energies at part `s` of a segment.
-    fn energies_inside(&mut self, index: usize, s: T) -> Result<Energies<T>, Error> {
-        let (mode, segment) = self.enter_segment(index);
-        let state = self.sampler.place(index, s)?;
-        let energies = self.energies_entered(segment.t + segment.h * s, mode, &state);
+    /// Energies at a time within a segment, or between its end and the next one; `s` is the part of it.
+    fn energies_inside(&mut self, time: f64, index: usize, s: T) -> Result<Energies<T>, Error> {
+        let (mode, _) = self.enter_segment(index);
+        let mut state = self.sampler.place(index, s)?;
+        self.trajectory.spread_last_impacts(time, &mut state);
+        let energies = self.energies_entered(T::from_f64(time), mode, &state);
         self.sampler.state = state;
         energies
     }
@@ -185,7 +186,7 @@ impl<'a, T: Scalar> EnergyMeter<'a, T> {
         let place = self.sampler.locate(time)?;
         let energies = match place {
             Some((segment, s)) if time != trajectory.last_time() => {
-                self.energies_inside(segment, s)?
+                self.energies_inside(time, segment, s)?
             }
             // Beside the last state, the end of the last polynomial is off by rounding.
             _ => self.energies(

@@ -307,7 +307,7 @@ impl<T: Scalar> Trajectory<T> {
         self.first_time.value()
     }
 
-    /// Last time, s.
+    /// Last time, s. Its derivatives, where an event ends the run, are those of [`Event::time`].
     pub fn last_time(&self) -> f64 {
         self.last_time.value()
     }

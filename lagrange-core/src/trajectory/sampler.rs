@@ -1,10 +1,10 @@
 //! The trajectory at any time: state, accelerations, forces, energies, outputs.
 
 use super::owner::Owner;
-use super::{Event, Segment, State, Trajectory};
+use super::{Event, EventKind, Segment, State, Trajectory};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{
-    Dynamics, EvaluationError, OutputMask, add_branch_guards, add_guards, approach,
+    Dynamics, EvaluationError, OutputMask, add_branch_guards, add_guards, approach, dot,
 };
 use crate::effects::Item;
 use crate::error::Error;
@@ -110,10 +110,12 @@ impl<'a, T: Scalar> Sampler<'a, T> {
             Some((index, s)) => {
                 let segment = &trajectory.segments[index];
                 let mode = &trajectory.modes[segment.mode];
-                let time = T::from_f64(t);
+                let mut time = T::from_f64(t);
                 let mut state = self.place(index, s)?;
+                trajectory.spread_last_impacts(t, &mut state);
                 if t == last {
                     // Beside it, the end of the last polynomial is off by rounding.
+                    time = trajectory.last_time;
                     state.clone_from(&trajectory.last);
                 }
                 self.headed = self.head_into_rest(segment, s, time, &state);
@@ -153,7 +155,8 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         } else {
             T::zero()
         };
-        let ended = s.value() > segment.end.value();
+        // The last instant moves with the end of the last step, where an event ends the run.
+        let ended = t == last || s.value() > segment.end.value();
         Ok(Some((index, if ended { segment.end } else { s })))
     }
 
@@ -161,14 +164,21 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         let d = self.trajectory.description();
         event.state.check_dimension(d.coordinates.len())?;
         let mut mode = event.before.clone();
+        let mut directions = Vec::new();
         for (f, _) in event.before.in_space() {
             // A slip that has just come to rest had the direction against which friction acted.
             let row = d.frictions[f].row;
-            let [x, y] = [row, row + 1].map(|row| -event.forces[row].value());
-            let size = x.hypot(y);
-            if size > 0.0 {
-                mode.turn(f, Direction::Incipient([x / size, y / size]));
+            let against = [row, row + 1].map(|row| -event.forces[row]);
+            let size = dot(against, against).sqrt();
+            if size.value() > 0.0 {
+                let along = against.map(|x| x / size);
+                mode.turn(f, Direction::Incipient(along.map(T::value)));
+                directions.push((f, along));
             }
+        }
+        self.enter(&mode);
+        for (f, along) in directions {
+            self.dynamics.set_slip_direction(f, along);
         }
         self.evaluate(event.time, &mode, &event.state)
     }
@@ -243,7 +253,8 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         /// Beside what makes a slip, it has no direction below this.
         const VANISHING: f64 = 1e-10;
         let mode = &self.trajectory.modes[segment.mode];
-        let mut along = None;
+        let mut rests = mode.clone();
+        let mut directions = Vec::new();
         for (f, _) in mode.in_space() {
             let dynamics = &mut self.dynamics;
             dynamics.tape(time, &state.q, &state.v);
@@ -257,17 +268,21 @@ impl<'a, T: Scalar> Sampler<'a, T> {
                 self.trajectory
                     .state_at(segment, s, &mut there.q, &mut there.v);
                 dynamics.tape(segment.t + segment.h * s, &there.q, &there.v);
-                dynamics.slip(f).map(|s| s.value())
+                dynamics.slip(f)
             });
-            if let Some(direction) = came {
-                let along = along.get_or_insert_with(|| mode.clone());
-                along.turn(f, Direction::Incipient(direction));
+            if let Some(along) = came {
+                rests.turn(f, Direction::Incipient(along.map(T::value)));
+                directions.push((f, along));
             }
         }
-        along.is_some_and(|mode| {
-            self.dynamics.set_mode(&mode);
-            true
-        })
+        if directions.is_empty() {
+            return false;
+        }
+        self.dynamics.set_mode(&rests);
+        for (f, along) in directions {
+            self.dynamics.set_slip_direction(f, along);
+        }
+        true
     }
 
     /// Everything about a state in a mode.
@@ -302,6 +317,30 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         // The mode is that of the phase.
         instant.mode.branches.clone_from(&mode.branches);
         Ok(instant)
+    }
+}
+
+impl<T: Scalar> Trajectory<T> {
+    /// Between the last impact that is followed and the time at which infinitely many more have accumulated there is no step: their impulses, and
+    /// what acts meanwhile, are spread evenly over that time.
+    pub(super) fn spread_last_impacts(&self, t: f64, state: &mut State<T>) {
+        let happened = self.events.partition_point(|event| event.time.value() <= t);
+        let (Some(last), Some(next)) = (
+            happened.checked_sub(1).map(|k| &self.events[k]),
+            self.events.get(happened),
+        ) else {
+            return;
+        };
+        if !matches!(next.kind, EventKind::Accumulates { .. }) {
+            return;
+        }
+        let passed = T::from_f64(t) - last.time;
+        let part = passed / (next.time - last.time);
+        let (from, to) = (&last.state_after, &next.state_after);
+        for i in 0..from.v.len() {
+            state.v[i] = from.v[i] + part * (to.v[i] - from.v[i]);
+            state.q[i] = from.q[i] + T::from_f64(0.5) * passed * (from.v[i] + state.v[i]);
+        }
     }
 }
 

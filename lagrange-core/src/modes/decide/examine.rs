@@ -48,13 +48,37 @@ impl<T: Scalar> Decider<T> {
         here: SwitchContext<'_, T>,
         mode: &Mode,
     ) -> Result<bool, EvaluationError> {
-        let SwitchContext { moment, facts, .. } = here;
-        let EvaluationPoint { t, q, v, .. } = moment;
         self.posed.clone_from(mode);
         self.forks = false;
-        if mode.has_incipient_slip() && !self.find_directions(dynamics, table, here)? {
+        if !mode.has_incipient_slip() {
+            return self.examine_posed(dynamics, table, here);
+        }
+        if !self.find_directions(dynamics, table, here)? {
             return Ok(false);
         }
+        if self.examine_posed(dynamics, table, here)? {
+            return Ok(true);
+        }
+        // What forbids the direction that is nearest to that of the force that held may not forbid another one.
+        let violated = core::mem::take(&mut self.violated);
+        while self.turn_to_another() {
+            if self.examine_posed(dynamics, table, here)? {
+                return Ok(true);
+            }
+        }
+        self.violated = violated;
+        Ok(false)
+    }
+
+    /// The same for the mode that is posed, with the directions in which slips begin.
+    fn examine_posed(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        table: &mut Table,
+        here: SwitchContext<'_, T>,
+    ) -> Result<bool, EvaluationError> {
+        let SwitchContext { moment, facts, .. } = here;
+        let EvaluationPoint { t, q, v, .. } = moment;
         dynamics.set_mode(&self.posed);
         self.held.clear();
         if facts.balanced.contains(&true) {

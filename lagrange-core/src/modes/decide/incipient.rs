@@ -61,6 +61,8 @@ pub(super) struct Beginning {
     /// Frictions whose slips begin, and their angles.
     frictions: Vec<usize>,
     angles: Vec<f64>,
+    /// Other angles at which one slip may begin, the nearest last.
+    others: Vec<f64>,
     /// Share below which ṡ·u is not positive, nor negative.
     nothing: f64,
 }
@@ -68,7 +70,7 @@ pub(super) struct Beginning {
 impl<T: Scalar> Decider<T> {
     /// Finds the directions in which the slips of `self.posed` begin, and writes them there. False: there are none.
     ///
-    /// Of several the one nearest to that of what made it stick is taken.
+    /// Of several the one nearest to that of what made it stick is taken, and the others are remembered.
     pub(super) fn find_directions(
         &mut self,
         dynamics: &mut Dynamics<T>,
@@ -85,6 +87,7 @@ impl<T: Scalar> Decider<T> {
             false => NOTHING,
         };
         for shared in [false, true] {
+            self.beginning.others.clear();
             self.against_sticking(dynamics, moment, shared);
             self.point();
             dynamics.set_mode(&self.posed);
@@ -111,6 +114,16 @@ impl<T: Scalar> Decider<T> {
             }
         }
         Ok(false)
+    }
+
+    /// Turns the one slip that begins to the next of the directions that were found. False: there is none.
+    pub(super) fn turn_to_another(&mut self) -> bool {
+        let next = self.beginning.others.pop();
+        if let Some(angle) = next {
+            self.beginning.angles[0] = angle;
+            self.point();
+        }
+        next.is_some()
     }
 
     /// Angles against the forces that would keep the slips at zero; of forces that the motion leaves open the least if they are
@@ -181,26 +194,41 @@ impl<T: Scalar> Decider<T> {
         let step = TAU / TRIES as f64;
         // The guess lies within the first interval.
         let first = guess - 0.5 * step;
-        let mut roots = [(0.0, f64::NEG_INFINITY); TRIES];
-        let mut largest = 0.0_f64;
+        let mut roots = [(0.0, f64::NEG_INFINITY); TRIES + 2];
+        let (between, only) = roots.split_at_mut(TRIES);
+        let (mut largest, mut fastest) = (0.0_f64, (0.0, 0.0));
         let mut low = turn(first);
-        for (k, root) in roots.iter_mut().enumerate() {
+        for (k, root) in between.iter_mut().enumerate() {
             let from = first + step * k as f64;
             let high = turn(from + step);
             largest = largest.max(high.along.abs()).max(high.across.abs());
+            let speed = high.along.hypot(high.across);
+            if speed > fastest.0 {
+                fastest = (speed, from + step - high.across.atan2(high.along));
+            }
             if low.across * high.across <= 0.0 {
                 let at = sharpen(&mut turn, (from, low), (from + step, high));
                 *root = (at, turn(at).along);
             }
             low = high;
         }
+        // A slip that can have one direction only, forth and back, may have two roots between two tries.
+        for (root, back) in only.iter_mut().zip([0.0, 0.5]) {
+            let at = fastest.1 + TAU * back;
+            let Turn { along, across } = turn(at);
+            if across.abs() <= ROUNDING * largest {
+                *root = (at, along);
+            }
+        }
         let far = |at: f64| (at - guess - TAU * ((at - guess) / TAU).round()).abs();
         let begins = |least: f64| {
             let roots = roots.iter();
             roots.filter(move |(_, along)| *along > least * largest)
         };
-        let nearest = begins(-self.beginning.nothing).min_by(|a, b| far(a.0).total_cmp(&far(b.0)));
-        let Some(&(nearest, _)) = nearest else {
+        let others = &mut self.beginning.others;
+        others.extend(begins(-self.beginning.nothing).map(|(at, _)| *at));
+        others.sort_by(|a, b| far(*b).total_cmp(&far(*a)));
+        let Some(nearest) = others.pop() else {
             return failure.map_or(Ok(Around::Nothing), Err);
         };
         self.forks = begins(NOTHING).count() > 1;
@@ -320,7 +348,7 @@ impl Beginning {
                 let pairs = slips.into_iter().zip(beginning.along());
                 Ok(pairs.map(|([a, b], [x, y])| a * y - b * x).collect())
             })?;
-            open.find(&matrix, &strengths);
+            open.find(&matrix, &strengths, SMALL);
             // Right at once, as by symmetry: forces that the motion leaves open may make what follows singular.
             let mut across = right.iter().zip(strengths.iter().zip(&sizes));
             let vanish = across

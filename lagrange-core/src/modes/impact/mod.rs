@@ -37,6 +37,9 @@ use sequential::{MOST_IMPACTS, Stuck, Turns};
 /// An impact may miss its energy balance by this share, and no more.
 const GAIN: f64 = 1e-9;
 
+/// Velocities are known to within so many units in the last place of 1 + |v|.
+const UNITS: f64 = 16.0;
+
 /// The rates of rows that hold on are known to so many times what the run has left of them.
 const LEFT: f64 = 2.0;
 
@@ -266,10 +269,10 @@ impl<T: Scalar> Collider<T> {
         }
     }
 
-    /// Kinetic energy of the rounding errors of velocities, each known to within the last place of 1 + |v|: what is left of a body
-    /// that impacts have brought to rest.
+    /// Kinetic energy of the rounding errors of velocities: what is left of a body that impacts have brought to rest, and what a surface that comes to it
+    /// without speed gives it.
     fn rounding(&self, dynamics: &Dynamics<T>, v: &[T]) -> f64 {
-        let known = |i: usize| epsilon::<T>() * (1.0 + v[i].value().abs());
+        let known = |i: usize| UNITS * epsilon::<T>() * (1.0 + v[i].value().abs());
         let mass = dynamics.description().mass.iter();
         mass.map(|&(i, j, place)| dynamics.motion(place).value().abs() * known(i) * known(j))
             .sum()

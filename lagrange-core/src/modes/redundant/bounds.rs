@@ -29,13 +29,13 @@ impl Bound {
 
 /// The bounds with a part that is open.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Bounds {
+pub(super) struct Bounds<T> {
     pub list: Vec<Bound>,
     /// The same as cones over the forces.
-    pub forces: ForceBounds,
+    pub forces: ForceBounds<T>,
 }
 
-impl Bounds {
+impl<T: Scalar> Bounds<T> {
     pub fn clear(&mut self) {
         self.list.clear();
         self.forces.clear();
@@ -49,11 +49,11 @@ impl<T: Scalar> RedundantForces<T> {
         let d = dynamics.description();
         let acting = dynamics.acting_rows();
         let index = |row: usize| acting.binary_search(&row).ok();
-        let number = |place: ValueRef| dynamics.motion(place).value();
+        let number = |place: ValueRef| dynamics.motion(place);
         let mode = dynamics.mode();
         for (c, contact) in d.contacts.iter().enumerate() {
             if let Some(i) = index(contact.row) {
-                let gap = [(&[(i, 1.0)][..], 0.0)];
+                let gap = [(&[(i, T::one())][..], T::zero())];
                 self.bound(Guard::Normal(c), [1.0, 0.0, 0.0], gap, dynamics);
             }
         }
@@ -65,16 +65,16 @@ impl<T: Scalar> RedundantForces<T> {
                 continue;
             };
             let coefficient = number(friction.static_coefficient);
-            let mut pressing = [1.0, 0.0, 0.0];
+            let mut pressing = [T::one(), T::zero(), T::zero()];
             let mut limits = Vec::with_capacity(3);
             let constant = match friction.normal {
                 Normal::Contact(c) => {
-                    let factor = d.contacts[c].normal_factor.map_or(1.0, number);
+                    let factor = d.contacts[c].normal_factor.map_or(T::one(), number);
                     let Some(row) = index(d.contacts[c].row) else {
                         continue;
                     };
                     limits.push((row, coefficient * factor));
-                    0.0
+                    T::zero()
                 }
                 Normal::Given(place) => coefficient * number(place),
                 Normal::Constraint(on) => {
@@ -86,41 +86,44 @@ impl<T: Scalar> RedundantForces<T> {
                         true => self.sign_of_least(row),
                         false => None,
                     };
-                    pressing[0] = own.unwrap_or(self.signs[on]);
+                    pressing[0] = T::from_f64(own.unwrap_or(self.signs[on]));
                     limits.push((row, coefficient * pressing[0]));
-                    0.0
+                    T::zero()
                 }
                 // What the least forces press in their direction, others press at least.
                 normal @ Normal::Resultant(_) => {
                     let Some(rows) = normal.rows(d).map(index).collect::<Option<Vec<_>>>() else {
                         continue;
                     };
-                    let force = |&row: &usize| self.least.forces[row].value();
-                    let size = rows.iter().map(force).fold(0.0, f64::hypot);
-                    if size > 0.0 {
+                    let force = |&row: &usize| self.least.forces[row];
+                    let squares = rows.iter().map(|row| force(row) * force(row));
+                    let size = squares.fold(T::zero(), |sum, square| sum + square).sqrt();
+                    if size.value() > 0.0 {
                         for (part, row) in pressing.iter_mut().zip(&rows) {
                             *part = force(row) / size;
                         }
                     }
                     let parts = pressing.map(|part| coefficient * part);
                     limits.extend(rows.into_iter().zip(parts));
-                    0.0
+                    T::zero()
                 }
             };
+            let one = T::one();
+            let presses = pressing.map(T::value);
             if guard::stick_guards(f, friction).eq([Guard::StickCone(f)]) {
                 let other = (friction.components > 1).then(|| index(friction.row + 1));
-                let other = other.flatten().map(|j| (j, 1.0));
+                let other = other.flatten().map(|j| (j, one));
                 let cone = [
                     (&limits[..], constant),
-                    (&[(i, 1.0)], 0.0),
-                    (other.as_slice(), 0.0),
+                    (&[(i, one)], T::zero()),
+                    (other.as_slice(), T::zero()),
                 ];
-                self.bound(Guard::StickCone(f), pressing, cone, dynamics);
+                self.bound(Guard::StickCone(f), presses, cone, dynamics);
             } else {
-                let sides = [(Guard::StickUpper(f), -1.0), (Guard::StickLower(f), 1.0)];
+                let sides = [(Guard::StickUpper(f), -one), (Guard::StickLower(f), one)];
                 for (guard, sign) in sides {
                     let terms = [&[(i, sign)], &limits[..]].concat();
-                    self.bound(guard, pressing, [(&terms, constant)], dynamics);
+                    self.bound(guard, presses, [(&terms, constant)], dynamics);
                 }
             }
         }
@@ -175,7 +178,7 @@ impl<T: Scalar> RedundantForces<T> {
         &mut self,
         guard: Guard,
         pressing: [f64; 3],
-        rows: [Linear<'_>; N],
+        rows: [Linear<'_, T>; N],
         dynamics: &Dynamics<T>,
     ) {
         let least = &self.least;
@@ -184,8 +187,8 @@ impl<T: Scalar> RedundantForces<T> {
             Guard::StickCone(f) => self.sizes.limit(f, dynamics),
             _ => self.sizes.of(guard, dynamics),
         };
-        let force = |i: usize| least.forces[i].value();
-        let is_open = (self.bounds.forces).add(rows, force, &least.freedom, own);
+        let bounds = &mut self.bounds.forces;
+        let is_open = bounds.add(rows, &least.forces, &least.freedom, own);
         if is_open {
             self.bounds.list.push(Bound { guard, pressing });
         }

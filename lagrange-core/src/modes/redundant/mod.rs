@@ -21,7 +21,6 @@ use crate::modes::guard::{ConePlane, Guard};
 use crate::modes::scale::Sizes;
 use crate::system::{Description, Friction, Normal};
 use bounds::Bounds;
-use nalgebra::DVector;
 
 /// Undetermined forces at one state; the memory is reused.
 #[derive(Clone, Debug, Default)]
@@ -29,7 +28,7 @@ pub struct RedundantForces<T> {
     least: LeastForces<T>,
     /// Signs of the forces of constraints, for the frictions that they carry.
     signs: Vec<f64>,
-    bounds: Bounds,
+    bounds: Bounds<T>,
     sizes: Sizes,
     /// The largest drive so far: loads that are nothing now may be large again.
     largest_drive: f64,
@@ -115,7 +114,7 @@ impl<T: Scalar> RedundantForces<T> {
             self.list_bounds(dynamics);
             let missing = -self.bounds.forces.widest_margin();
             let missing = if missing > ROUNDING { missing } else { 0.0 };
-            let change = self.shares().norm();
+            let change = self.bounds.forces.change(0.0);
             if (missing, change) < (best.0, best.1) {
                 best = (missing, change, self.signs.clone());
             }
@@ -160,7 +159,7 @@ impl<T: Scalar> RedundantForces<T> {
             self.signs = signs;
             self.list_bounds(dynamics);
             if self.bounds.forces.widest_margin() > border {
-                let change = self.shares().norm();
+                let change = self.bounds.forces.change(0.0);
                 if best.as_ref().is_none_or(|(least, _)| change < *least) {
                     best = Some((change, self.signs.clone()));
                 }
@@ -307,8 +306,8 @@ impl<T: Scalar> RedundantForces<T> {
         self.forces(dynamics)
     }
 
-    /// The forces of all rows: those of least norm within the bounds, or as near to that as any are.
-    fn forces(&self, dynamics: &Dynamics<T>) -> Vec<T> {
+    /// The forces of all rows as last looked at: those of least norm within the bounds, or as near to that as any are.
+    pub fn forces(&self, dynamics: &Dynamics<T>) -> Vec<T> {
         if self.least.forces.is_empty() {
             let rows = 0..dynamics.description().rows.len();
             return rows.map(|row| dynamics.force(row)).collect();
@@ -316,20 +315,14 @@ impl<T: Scalar> RedundantForces<T> {
         if !self.has_open() {
             return dynamics.forces_of_acting(&self.least.forces);
         }
-        let shares = self.shares();
-        let changes: Vec<T> = shares.iter().map(|&change| T::from_f64(change)).collect();
         let mut forces = self.least.forces.clone();
-        for (force, &change) in forces.iter_mut().zip(&changes) {
-            *force += change;
+        if let Some(changes) = self.bounds.forces.shares(0.0) {
+            for (force, &change) in forces.iter_mut().zip(&changes) {
+                *force += change;
+            }
+            self.least.follow(changes.as_slice(), &mut forces);
         }
-        self.least.follow(&changes, &mut forces);
         dynamics.forces_of_acting(&forces)
-    }
-
-    /// What takes the forces of least norm to those of least norm that keep all bounds, or come as near to that as any do.
-    fn shares(&self) -> DVector<f64> {
-        let shares = self.bounds.forces.shares(0.0);
-        shares.unwrap_or_else(|| DVector::zeros(self.least.forces.len()))
     }
 
     /// Whether the force of each row is undetermined.

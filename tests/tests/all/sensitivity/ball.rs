@@ -119,3 +119,62 @@ fn second_derivatives_nest() {
         agree("d²t/de²", second, 2.0 * fall * terms.sum::<f64>(), 1e-9);
     }
 }
+
+/// A mass on its way to a wall, and another one that is pushed harder and harder meanwhile.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, z),
+    kinetic = (der(x)^2 + mass * der(z)^2) / 2,
+    force(push: z = strength * t^2),
+    stop(arrived: x >= stops_at),
+    contact(wall: x <= length, restitution = 1/2),
+    observe(clock = t),
+    start(go: der(x) = speed),
+)]
+struct Approach<T = f64> {
+    mass: T,
+    strength: T,
+    speed: T,
+    length: T,
+    stops_at: T,
+}
+
+/// At the last time, T = length/speed, everything has its derivatives at the end that moves: recorded or not, at a stop or after an event.
+#[test]
+fn all_at_the_end_of_a_run_moves_with_it() {
+    for p in [[1.5, 0.8, 2.0, 3.0], [0.7, 1.9, 0.6, 1.1]] {
+        let [mass, strength, speed, length] = seeded(p);
+        let end: Slopes = length / speed;
+        let far = number(100.0);
+        for (wall, stops_at) in [(length, far), (far, length)] {
+            let scene: Approach<Slopes> = Approach {
+                mass,
+                strength,
+                speed,
+                length: wall,
+                stops_at,
+            };
+            for recorded in [true, false] {
+                let simulation = Simulation::new(&scene).record(recorded);
+                let simulation = simulation.end_after(<Approach>::WALL);
+                let run = simulation.run(scene.at(<Approach>::GO), 0.0..20.0);
+                let run = run.unwrap_or_else(|failure| panic!("{failure}"));
+                let now = run.sampler().at(run.last_time()).expect("the end");
+                let load = strength * end * end;
+                let fast = load * end / (number(3.0) * mass);
+                for (what, found, expected) in [
+                    ("time", now.time, end),
+                    ("clock", now.observe(<Approach>::CLOCK), end),
+                    ("load", now.load(<Approach>::PUSH), load),
+                    ("acceleration", now.a(<Approach>::Z), load / mass),
+                    ("velocity", now.v(<Approach>::Z), fast),
+                    ("final velocity", run.final_state().v(<Approach>::Z), fast),
+                ] {
+                    let what = format!("{what}, recorded: {recorded}");
+                    agree(&what, found.value, expected.value, 1e-9);
+                    same_slopes(&what, found, expected, 1e-8);
+                }
+            }
+        }
+    }
+}

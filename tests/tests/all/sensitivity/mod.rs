@@ -2,6 +2,8 @@
 
 mod ball;
 mod platform;
+mod rest_in_space;
+mod shared_loads;
 mod switches;
 
 use lagrange_core::Runnable;

@@ -2,7 +2,9 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{METHODS, TOLERANCES, agree, certified, event, methods_at, root, run_by};
+use lagrange_tests::{
+    METHODS, TOLERANCES, agree, certified, event, methods_at, root, run_by, times,
+};
 
 /// A block dropped onto a rough incline, which lifts or not while the block bounces.
 #[derive(Lagrangian, Clone, Debug)]
@@ -46,6 +48,47 @@ fn the_last_bounces_rub_as_the_others_do() {
             assert!(speed > 0.0, "it slides all the time");
             let asked = format!("{method} {tolerance:e}, {bounce}: speed");
             agree(&asked, motion.final_state().v[0], speed, 10.0 * tolerance);
+        }
+    }
+}
+
+/// From each impact on, the last one that is followed included, the sampler has the velocity after it, and at all times that which follows from the
+/// momentum: ∫N dt = m (ṅ − ṅ₀ + g t cos β).
+#[test]
+fn between_the_last_impact_and_the_rest_the_motion_goes_on() {
+    for (lift, bounce, mu) in [(0.0, 0.3, 0.15), (0.0, 0.7, 0.1), (2.0, 0.5, 0.2)] {
+        let scene = Incline {
+            mass: 1.3,
+            gravity: 9.81,
+            slope: 0.4,
+            lift,
+            bounce,
+            mu,
+        };
+        for (method, tolerance) in methods_at(["taylor", "radau5"], TOLERANCES) {
+            let what = format!("{method} {tolerance:e}, {bounce}");
+            let start = state(&[0.0, 0.7], &[9.0, -2.0]);
+            let motion = run_by(&scene, (method, tolerance), start, 5.0);
+            let mut sampler = motion.sampler();
+            for impact in times(&motion, "plane", "impact") {
+                let mut events = motion.events().iter();
+                let event = events.find(|event| event.time == impact);
+                let after = event.expect("it is that of an event").v_after(Incline::N);
+                let now = sampler.at(impact).expect("recorded");
+                agree(&what, now.v(Incline::N), after, 1e-14);
+            }
+            let ends = event(&motion, "plane", "accumulates");
+            let last = times(&motion, "plane", "impact");
+            let last = *last.last().expect("it bounces");
+            for part in [0.0, 0.2, 0.5, 0.9, 0.999, 1.0] {
+                let t = last + part * (ends.time - last);
+                let now = sampler.at(t).expect("recorded");
+                let normal = now.v(Incline::N) + 2.0 + 9.81 * scene.slope.cos() * t;
+                let speed = 9.0 + 9.81 * scene.slope.sin() * t - mu * normal;
+                agree(&what, now.v(Incline::S), speed, 10.0 * tolerance);
+                let lifted = lift * t * t / 2.0;
+                agree(&what, now.q(Incline::N), lifted, 10.0 * tolerance);
+            }
         }
     }
 }

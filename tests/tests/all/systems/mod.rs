@@ -1,9 +1,11 @@
 //! Systems that are not in the library, declared here, each with something independent to compare with.
 
 mod aligned;
+mod arrivals;
 mod at_limit;
 mod backlash;
 mod ball;
+mod barely_slips;
 mod bearing;
 mod belt;
 mod bending_guards;
@@ -52,6 +54,7 @@ mod kepler;
 mod kicks;
 mod landings;
 mod last_bounces;
+mod last_edges;
 mod late;
 mod lies_down;
 mod lifts;
@@ -69,6 +72,7 @@ mod permuted;
 mod piecewise;
 mod plate;
 mod plates;
+mod poles;
 mod powers;
 mod pressed;
 mod pulses;

@@ -27,14 +27,12 @@ impl<T: Scalar> Pattern<T> {
         if self.slides.contains(&Slide::Stick)
             && let Some(change) = self.change(c, phase, &shared, &freedom)
         {
-            // The same effect, and the same derivatives of it: what is added has none of its own, and the rest makes up for that.
-            let change = change.iter().map(|&x| T::from_f64(x));
-            let change: Vec<T> = change.collect();
+            // The same effect to the last digit: what is added has none, but for rounding, and the rest makes up for that.
             for (impulse, &more) in shared.iter_mut().zip(&change) {
                 *impulse -= more;
             }
             least_norm(&columns, c.size, rank, &mut shared);
-            for (impulse, more) in shared.iter_mut().zip(change) {
+            for (impulse, &more) in shared.iter_mut().zip(&change) {
                 *impulse += more;
             }
         }
@@ -62,15 +60,15 @@ impl<T: Scalar> Pattern<T> {
         c: &Collision<T>,
         phase: &Phase<T>,
         least: &[T],
-        freedom: &Freedom,
-    ) -> Option<DVector<f64>> {
+        freedom: &Freedom<T>,
+    ) -> Option<DVector<T>> {
         self.bounds.clear();
         let place = |row: usize| self.unknowns.iter().position(|&unknown| unknown == row);
-        let impulse = |i: usize| least[i].value();
+        let one = T::one();
         for (k, touch) in c.touches.iter().enumerate() {
             if let Some(i) = place(touch.row) {
-                let push = [(&[(i, 1.0)][..], -phase.least[k].value())];
-                self.bounds.add(push, impulse, freedom, || 0.0);
+                let push = [(&[(i, one)][..], -phase.least[k])];
+                self.bounds.add(push, least, freedom, || 0.0);
             }
         }
         for (rub, slide) in c.rubs.iter().zip(&self.slides) {
@@ -78,28 +76,32 @@ impl<T: Scalar> Pattern<T> {
             let (Slide::Stick, Some(i)) = (slide, place(rub.row)) else {
                 continue;
             };
-            let most = (rub.stick * rub.factor).value();
+            let most = rub.stick * rub.factor;
             let (limit, constant) = match place(bearer) {
                 Some(n) => {
                     // The sign of a constraint's impulse is that which it has.
-                    let against =
-                        matches!(rub.bearer, NormalSource::ConstraintRow(_)) && impulse(n) < 0.0;
-                    ((n, if against { -most } else { most }), 0.0)
+                    let against = matches!(rub.bearer, NormalSource::ConstraintRow(_))
+                        && least[n].value() < 0.0;
+                    ((n, if against { -most } else { most }), T::zero())
                 }
-                None => ((i, 0.0), most * self.impulses[bearer].value().abs()),
+                None => {
+                    let pressing = self.impulses[bearer];
+                    let sign = T::from_f64(pressing.value().signum());
+                    ((i, T::zero()), most * sign * pressing)
+                }
             };
             if rub.components == 1 {
-                for sign in [-1.0, 1.0] {
+                for sign in [-one, one] {
                     let side = [(&[(i, sign), limit][..], constant)];
-                    self.bounds.add(side, impulse, freedom, || 0.0);
+                    self.bounds.add(side, least, freedom, || 0.0);
                 }
             } else {
                 let cone = [
                     (&[limit][..], constant),
-                    (&[(i, 1.0)][..], 0.0),
-                    (&[(i + 1, 1.0)][..], 0.0),
+                    (&[(i, one)][..], T::zero()),
+                    (&[(i + 1, one)][..], T::zero()),
                 ];
-                self.bounds.add(cone, impulse, freedom, || 0.0);
+                self.bounds.add(cone, least, freedom, || 0.0);
             }
         }
         self.bounds.complete();

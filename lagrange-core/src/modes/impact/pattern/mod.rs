@@ -74,7 +74,7 @@ pub(super) struct Pattern<T> {
     /// In the place of equations that say nothing new: how impulses are shared.
     pub(super) shares: Vec<Share<T>>,
     dependence: Equilibrated<T>,
-    bounds: ForceBounds,
+    bounds: ForceBounds<T>,
     pub(super) matrix: Vec<T>,
     pub(super) right: Vec<T>,
     pub(super) factors: Equilibrated<T>,

@@ -3,8 +3,11 @@
 //! With λ₀ of least norm and a basis B of the forces without effect that bounds depend on, all λ₀ + B y have the same effect. The shares of least
 //! norm within the bounds are a quadratic programme over cones for y.
 
+mod slopes;
+
 use super::conic::{Cone, ConicPoint, ConicProgram};
 use super::least_norm::Freedom;
+use crate::arithmetic::Scalar;
 use nalgebra::{DMatrix, DVector};
 
 /// A bound depends on forces that are open if one of them changes it by more than this, relative.
@@ -20,11 +23,11 @@ const CANCELLED: f64 = 1e-12;
 const BORDER: f64 = 1e-13;
 
 /// A linear function of the forces: (index of a force, factor) of what it is the sum of, and a constant.
-pub(crate) type Linear<'a> = (&'a [(usize, f64)], f64);
+pub(crate) type Linear<'a, T> = (&'a [(usize, T)], T);
 
 /// Bounds with a part that is open, each linear in the forces and relative to its size.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct ForceBounds {
+pub(crate) struct ForceBounds<T> {
     /// Their rows in the lists of all.
     pub(crate) cones: Vec<Cone>,
     /// Per bound: size of the terms that make it.
@@ -35,36 +38,46 @@ pub(crate) struct ForceBounds {
     factors: Vec<f64>,
     /// How each row depends on the forces, without what has an effect, as parts of its largest factor.
     changes: Vec<DVector<f64>>,
-    /// B, an orthogonal basis of these, of vectors that are equally long.
+    /// Of numbers with derivatives, per row: the change by the forces and the value, neither relative.
+    exact: Vec<(DVector<T>, T)>,
+    /// B, an orthogonal basis of the changes, of vectors that are equally long.
     basis: DMatrix<f64>,
+    /// How long.
+    unit: f64,
     /// How each row depends on the basis.
     open: DMatrix<f64>,
 }
 
-impl ForceBounds {
+impl<T: Scalar> ForceBounds<T> {
     pub(crate) fn clear(&mut self) {
         self.cones.clear();
         self.sizes.clear();
         self.values.clear();
         self.factors.clear();
         self.changes.clear();
+        self.exact.clear();
     }
 
     /// Adds s ≥ 0, or s₀ ≥ √(s₁² + s₂²), of `forces` of least norm. False, and nothing happens, if no part of it is open; its size is that of its
     /// terms, and `least_size` at least.
     pub(crate) fn add<const N: usize>(
         &mut self,
-        rows: [Linear<'_>; N],
-        forces: impl Fn(usize) -> f64,
-        freedom: &Freedom,
+        rows: [Linear<'_, T>; N],
+        forces: &[T],
+        freedom: &Freedom<T>,
         least_size: impl FnOnce() -> f64,
     ) -> bool {
         let changes = rows.map(|(terms, _)| {
-            let largest = terms.iter().fold(0.0_f64, |m, (_, a)| m.max(a.abs()));
-            let part = |a: f64| if largest > 0.0 { a / largest } else { 0.0 };
+            let sizes = terms.iter().map(|(_, a)| a.value().abs());
+            let largest = sizes.fold(0.0, f64::max);
+            let part = |a: T| match largest > 0.0 {
+                true => a.value() / largest,
+                false => 0.0,
+            };
             let change = DVector::from_fn(freedom.size(), |j, _| {
                 let terms = terms.iter();
-                terms.map(|&(i, a)| part(a) * freedom.row(i)[j]).sum()
+                let parts = terms.map(|&(i, a)| part(a) * freedom.row(i)[j].value());
+                parts.sum()
             });
             (change, largest)
         });
@@ -72,8 +85,9 @@ impl ForceBounds {
             return false;
         }
         let made_of = rows.iter().map(|(terms, constant)| {
-            let parts = terms.iter().map(|&(i, a)| (a * forces(i)).abs());
-            parts.sum::<f64>() + constant.abs()
+            let terms = terms.iter();
+            let parts = terms.map(|&(i, a)| (a * forces[i]).value().abs());
+            parts.sum::<f64>() + constant.value().abs()
         });
         self.sizes.push(made_of.fold(least_size(), f64::max));
         let first = self.values.len();
@@ -82,13 +96,17 @@ impl ForceBounds {
             _ => Cone::SecondOrder(first),
         });
         for ((terms, constant), (mut change, factor)) in rows.into_iter().zip(changes) {
-            let value: f64 = terms.iter().map(|&(i, a)| a * forces(i)).sum();
-            self.values.push(value + constant);
+            let value = (terms.iter()).fold(T::zero(), |sum, &(i, a)| sum + a * forces[i]);
+            let value = value + constant;
+            self.values.push(value.value());
             if change.amax() <= CANCELLED {
                 change.fill(0.0);
             }
             self.factors.push(factor);
             self.changes.push(change);
+            if T::DERIVATIVES > 0 {
+                self.exact.push((freedom.part(terms), value));
+            }
         }
         true
     }
@@ -118,6 +136,7 @@ impl ForceBounds {
             .fold(f64::MIN_POSITIVE, |m, x| m.max(x.abs()));
         self.open /= scale;
         self.basis = basis / scale;
+        self.unit = scale.recip();
     }
 
     /// The least of bounds with these `values` as they are.
@@ -159,18 +178,35 @@ impl ForceBounds {
 
     /// What takes the forces of least norm to those of least norm that keep all bounds by `margin`, relative, or come as near to that as any
     /// do; `None` if they keep them as they are.
-    pub(crate) fn shares(&self, margin: f64) -> Option<DVector<f64>> {
+    pub(crate) fn shares(&self, margin: f64) -> Option<DVector<T>> {
+        let (program, point) = self.nearest(margin)?;
+        let shares = (&self.basis * &point.x).map(T::from_f64);
+        Some(match T::DERIVATIVES {
+            0 => shares,
+            _ => shares + self.slopes(&program, &point),
+        })
+    }
+
+    /// How long that is.
+    pub(crate) fn change(&self, margin: f64) -> f64 {
+        let nearest = self.nearest(margin);
+        nearest.map_or(0.0, |(_, point)| self.unit * point.x.norm())
+    }
+
+    /// The programme of the shares for `margin`, and its solution.
+    fn nearest(&self, margin: f64) -> Option<(ConicProgram, ConicPoint)> {
         if self.least(&self.values) >= margin {
             return None;
         }
         let free = self.basis.ncols();
         let widest = self.widest(&self.values, 1.0).x;
-        let program = self.nearest((widest[free] - BORDER).min(margin));
-        Some(&self.basis * program.solve(widest.rows(0, free).into_owned()).x)
+        let program = self.program((widest[free] - BORDER).min(margin));
+        let point = program.solve(widest.rows(0, free).into_owned());
+        Some((program, point))
     }
 
     /// What is to be solved for the forces of least norm that keep all bounds by `margin`.
-    fn nearest(&self, margin: f64) -> ConicProgram {
+    fn program(&self, margin: f64) -> ConicProgram {
         let columns = self.open.ncols();
         let mut b = DVector::from_column_slice(&self.values);
         for cone in &self.cones {

@@ -1,0 +1,115 @@
+//! Gaps that a polynomial takes below zero and that are not: those of distances, which have no direction where they vanish, and of surfaces that
+//! come to a body without speed.
+
+use super::Run;
+use super::hit::Hit;
+use super::touching::LEVER;
+use crate::arithmetic::Scalar;
+use crate::events::dip;
+use crate::integrate::{horner, polynomial_derivative as slope};
+use crate::modes::guard::Guard;
+use crate::trajectory::State;
+
+/// How far beyond a hit its gap is looked at, in units of the tolerance.
+const BEYOND: f64 = 10.0;
+
+impl<T: Scalar> Run<T> {
+    /// Lets gaps that the step at hand hits fall as far below zero as their polynomials do, where these turn before they have fallen by more than the
+    /// tolerance, and the gaps themselves vanish there at most, as far as rounding tells; whether there are such. The motion is known up to part
+    /// `known` of the step.
+    ///
+    /// What rises to a body and comes to rest where it meets it would be hit a little before, by the root of the error of its series: at a speed that
+    /// it does not have, while it brakes harder than what lies on it can be braked with.
+    pub(super) fn passes_over_touches(&mut self, hit: &Hit, known: f64) -> bool {
+        let Hit::Guards(end) = *hit else {
+            return false;
+        };
+        let mut passes = false;
+        for k in 0..self.locator.fallen.len() {
+            let guard = self.locator.fallen[k];
+            let Guard::Gap(contact) = guard else {
+                continue;
+            };
+            if let Some(depth) = self.depth_of_touch(contact, end, known) {
+                let extent = self.locator.polynomials.extents[contact];
+                self.locator.polynomials.lower(guard, 2.0 * depth / extent);
+                passes = true;
+            }
+        }
+        passes
+    }
+
+    /// How far the polynomial of the gap of a contact falls below zero behind its root at part `end` of the step, if the gap only touches it.
+    fn depth_of_touch(&mut self, contact: usize, end: f64, known: f64) -> Option<f64> {
+        let guard = Guard::Gap(contact);
+        let curves = &self.locator.polynomials;
+        let index = curves.index_of(guard)?;
+        let (_, curve) = curves.get(index)?;
+        let least = self.settings.tolerance.max(1e-13) * curves.extents[contact];
+        let (turn, depth) = dip(curve, end, BEYOND * least)?;
+        if turn > known || curves.is_lowered(guard) {
+            return None;
+        }
+        let gap = self.gap_at(index, turn);
+        let d = self.description();
+        let closed = (0..d.contacts.len()).filter(|&c| self.now.mode.contacts[c]);
+        let off = closed.map(|c| self.gap(c).abs()).fold(0.0, f64::max);
+        (-gap <= self.rounding_of_gap(contact).max(LEVER * off)).then_some(depth)
+    }
+
+    /// The contact that is hit by its polynomial but whose gap rises beyond, as far as the motion is known there, up to part `known` of the
+    /// step: a distance √(x² + y²), which has no direction where it vanishes.
+    ///
+    /// Positions are known to the tolerance, so that is what is looked at beyond the hit; gaps in another unit, to what is left of them there.
+    pub(super) fn gap_that_turns(&mut self, hit: &Hit, known: f64) -> Option<&'static str> {
+        let Hit::Guards(end) = *hit else {
+            return None;
+        };
+        for k in 0..self.locator.fallen.len() {
+            let guard = self.locator.fallen[k];
+            let Guard::Gap(contact) = guard else {
+                continue;
+            };
+            let index = self.locator.polynomials.index_of(guard)?;
+            self.state_at_end(end);
+            let q = self.stepper.scratch.q.iter();
+            let extent = self.locator.polynomials.extents[contact];
+            let size = q.fold(extent, |size, q| size.max(q.value().abs()));
+            let depth = BEYOND * self.settings.tolerance.max(1e-13) * size;
+            let turns = self.turns_beyond(index, end, depth, known) && {
+                let deeper = BEYOND * self.gap_at(index, end).abs();
+                deeper <= depth || self.turns_beyond(index, end, deeper, known)
+            };
+            if turns {
+                return Some(self.description().contacts[contact].name);
+            }
+        }
+        None
+    }
+
+    /// Whether the gap that guard number `index` watches is above zero where its curve is as far below as `depth`, behind its root at part `end` of
+    /// the step.
+    fn turns_beyond(&mut self, index: usize, end: f64, depth: f64, known: f64) -> bool {
+        let Some((_, curve)) = self.locator.polynomials.get(index) else {
+            return false;
+        };
+        let beyond = end + depth / slope(curve, end).abs();
+        let fallen = horner(curve, beyond);
+        if beyond > known || fallen > -0.5 * depth {
+            return false;
+        }
+        let gap = self.gap_at(index, beyond);
+        // A distance is then what its polynomial is, of the other sign; where the series of a gap has stopped converging it is something else.
+        gap > 0.5 * depth && (gap + fallen).abs() < 0.5 * depth
+    }
+
+    /// The gap that guard number `index` watches, as declared, at part `s` of the step.
+    fn gap_at(&mut self, index: usize, s: f64) -> f64 {
+        self.state_at_end(s);
+        let State { q, v, .. } = &self.stepper.scratch;
+        self.dynamics
+            .tape(self.stepper.step.time(T::from_f64(s)), q, v);
+        let curves = &self.locator.polynomials;
+        curves.value(index, &self.now.mode, &self.dynamics)
+    }
+}
