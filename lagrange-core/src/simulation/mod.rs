@@ -128,12 +128,13 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
     }
 
     /// Whether the run is made a second time, at a hundredth of the tolerance, to see how far off it is:
-    /// [`Trajectory::estimate`](crate::trajectory::Trajectory::estimate).
+    /// [`Trajectory::estimate`](crate::trajectory::Trajectory::estimate). Where [`Self::error`] is asked for, there is an estimate in any case.
     #[must_use]
     pub fn estimate(mut self, yes: bool) -> Self {
-        self.settings.goal = match yes {
-            true => Goal::Estimate,
-            false => Goal::Tolerance,
+        self.settings.goal = match (self.settings.goal, yes) {
+            (within @ Goal::Error(_), _) => within,
+            (_, true) => Goal::Estimate,
+            (_, false) => Goal::Tolerance,
         };
         self
     }
@@ -177,6 +178,7 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
 
     /// Ends the run once this has happened: any event of an item, `MassOnWheel::FLOOR`, one of a kind, `(MassOnWheel::RIM,
     /// EventKind::Lost)`, or the fifth of a kind, `(Ball::FLOOR, EventKind::Impact, 5)`. Given several times, once all of them have.
+    /// A run is refused if it is to end after event number 0, or after one of an item that is left out.
     #[must_use]
     pub fn end_after(mut self, event: impl Into<Awaited>) -> Self {
         self.settings.last_events.push(event.into());

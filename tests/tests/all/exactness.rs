@@ -2,6 +2,7 @@
 
 use lagrange_core::prelude::*;
 use lagrange_core::trajectory::Summary;
+use lagrange_tests::agree;
 use lagrange_tests::exactness::{Estimated, Exact};
 use lagrange_tests::families::contacts::{Chain, Rod};
 use lagrange_tests::fuzz;
@@ -115,6 +116,27 @@ fn an_estimate_is_the_error() {
         let error = (q[0] - cos).abs().max((v[0] + sin).abs());
         let ratio = told.state_error / error;
         assert!((0.5..2.0).contains(&ratio), "{method}: {ratio}");
+    }
+}
+
+/// Whether an estimate is asked for besides, before or after, changes nothing of the error that a run is to be within.
+#[test]
+fn an_error_asked_for_stays_so() {
+    let scene = Spring {};
+    let plain = Simulation::new(&scene);
+    for simulation in [
+        plain.clone().error(1e-12).estimate(true),
+        plain.clone().error(1e-12).estimate(false),
+        plain.clone().estimate(true).error(1e-12),
+        plain.clone().estimate(false).error(1e-12),
+    ] {
+        let run = simulation.run(scene.at(Spring::PULLED), 0.0..7.0);
+        let run = run.expect("runs");
+        let (sin, cos) = 7.0_f64.sin_cos();
+        agree("x", run.final_state().q[0], cos, 1e-12);
+        agree("ẋ", run.final_state().v[0], -sin, 1e-12);
+        let told = &run.estimate().expect("there is one").difference;
+        assert!(told.error() <= 1e-12 && run.tolerance() < 1e-12);
     }
 }
 
