@@ -25,7 +25,7 @@ impl<T: Scalar> Run<T> {
         let mut outcome = self.launch(start, span, into);
         while outcome.is_ok() && self.goes_on() {
             outcome = self.advance();
-            if outcome.is_ok() && self.recorder.trajectory.bytes() > bytes && self.may_cut() {
+            if outcome.is_ok() && self.may_cut(bytes) {
                 self.close();
                 take(&self.recorder.trajectory);
                 self.begin_piece();
@@ -146,10 +146,14 @@ impl<T: Scalar> Run<T> {
         !self.settings.last_events.is_empty() && self.recorder.awaited.iter().all(happened)
     }
 
-    /// Whether the motion can be told from here on by itself: nothing has happened at this instant, and nothing that began earlier is
-    /// under way but the mode.
-    fn may_cut(&self) -> bool {
-        self.goes_on() && self.switcher.stuck.is_empty() && !self.now.below.contains(&true)
+    /// Whether the record, which is to have about so many `bytes`, ends here, where the motion can be told from here on by itself: nothing that began
+    /// earlier is under way but the mode. More may happen at an instant at which something has, so that it is the last resort where every step ends in an event.
+    fn may_cut(&self, bytes: usize) -> bool {
+        let most = match self.switcher.stuck.is_empty() {
+            true => bytes,
+            false => bytes.saturating_mul(2),
+        };
+        self.recorder.trajectory.bytes() > most && self.goes_on() && !self.now.below.contains(&true)
     }
 
     /// Goes on with an empty record.

@@ -47,8 +47,9 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
     }
 
     /// The same, with a memory of the motion that does not grow with its length: about every so many `bytes` what there is of it is
-    /// given to `take`, as the trajectory of a run of its own (but its work counts from the beginning), and forgotten. The trajectory that stays
-    /// is the last piece. A run whose error is asked for is one piece.
+    /// given to `take`, as the trajectory of a run of its own (but its work counts from the beginning), and forgotten. It is cut between two
+    /// steps at a time when nothing happens; where there is none before twice as many bytes, just after what has happened. The trajectory that
+    /// stays is the last piece. A run whose error is asked for is one piece.
     ///
     /// # Errors
     /// As of [`Self::run`].

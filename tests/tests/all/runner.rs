@@ -5,6 +5,7 @@ use lagrange_problems::scenes::hard::{
     BeltOscillator, CueBall, HoopBead, InclineBlock, TurningPush,
 };
 use lagrange_problems::scenes::*;
+use lagrange_tests::agree;
 
 /// Runs a scene from its first start in a new simulation.
 fn single<S: Derived<Scalar = f64>>(
@@ -196,6 +197,49 @@ fn pieces_follow_each_other() {
     assert_eq!(end.final_state(), whole.final_state());
     assert_eq!(end.work(), whole.work());
     assert!(pieces > 5, "{pieces} pieces");
+}
+
+/// A ball that never comes to rest.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y),
+    kinetic = der(y)^2 / 2,
+    potential = gravity * y,
+    contact(floor: y >= 0, restitution = 1),
+    start(held: y = height),
+)]
+struct ElasticBall {
+    gravity: f64,
+    height: f64,
+}
+
+/// Each step ends in an impact, at √(2h/g) (2k − 1): the run is cut just after some of them.
+#[test]
+fn a_run_whose_steps_all_end_in_events_has_pieces() {
+    for (gravity, height) in [(9.81, 0.3), (1.6, 0.7)] {
+        let ball = ElasticBall { gravity, height };
+        let fall = (2.0 * height / gravity).sqrt();
+        let mut runner = Simulation::new(&ball).runner();
+        let (mut pieces, mut impacts, mut last) = (0, 0, 0.0);
+        let mut look = |piece: &Trajectory| {
+            assert_eq!(piece.first_time(), last);
+            assert!(piece.step_times().count() <= 20);
+            assert!(piece.verify(pieces).expect("recorded").holds());
+            for impact in piece.events() {
+                impacts += 1;
+                let time = fall * f64::from(2 * impacts - 1);
+                agree("impact", impact.time, time, 1e-9);
+            }
+            (pieces, last) = (pieces + 1, piece.last_time());
+        };
+        let held = ball.at(ElasticBall::HELD);
+        let outcome = runner.run_in_pieces(held, 0.0..100.0, 1000, &mut look);
+        outcome.expect("a run");
+        look(runner.trajectory());
+        assert_eq!(last, 100.0);
+        assert!(pieces > 5, "{pieces} pieces");
+        assert_eq!(impacts, ((100.0 / fall + 1.0) / 2.0) as i32);
+    }
 }
 
 /// A mass leaves the flat top of a hill.
