@@ -103,6 +103,17 @@ impl Subject {
             Subject::Mark(i) => (i, d.marks.len()),
         }
     }
+
+    /// What can be left out of a run; a branch cannot.
+    pub(crate) fn item(self) -> Option<Item> {
+        match self {
+            Subject::Contact(i) => Some(Item::Contact(i)),
+            Subject::Friction(i) => Some(Item::Friction(i)),
+            Subject::Branch(_) => None,
+            Subject::Stop(i) => Some(Item::Stop(i)),
+            Subject::Mark(i) => Some(Item::Mark(i)),
+        }
+    }
 }
 
 /// What has a multiplier: a constraint, a contact or a friction.

@@ -159,7 +159,7 @@ impl<T: Runnable> Trajectory<T> {
     /// The same for the first step and a share of the others, 0 to 1, chosen by `seed`. How steps join, and impacts, are looked at in any case.
     ///
     /// # Errors
-    /// [`Error::NotRecorded`].
+    /// [`Error::NotRecorded`]; [`Error::Argument`] if the share is none.
     pub fn verify_share(&self, seed: u64, share: f64) -> Result<Certificate, Error> {
         (T::functions().verify)(self, seed, share)
     }

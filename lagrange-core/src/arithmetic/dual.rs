@@ -70,9 +70,17 @@ impl<T: Scalar, const N: usize> Dual<T, N> {
         }
     }
 
-    /// The independent variable of direction `index`. A direction past `N` leaves it constant.
+    /// The independent variable of direction `index`.
+    ///
+    /// # Panics
+    /// If there is no such direction: they are counted from 0 and less than `N`.
     #[inline(always)]
+    #[track_caller]
     pub fn variable(value: T, index: usize) -> Self {
+        assert!(
+            index < N,
+            "there is no direction {index} among {N}, counted from 0"
+        );
         Self {
             value,
             derivative: core::array::from_fn(|i| if i == index { T::one() } else { T::zero() }),

@@ -64,3 +64,9 @@ fn four_numbers_side_by_side_are_what_they_are_in_memory() {
         assert_eq!(here, there, "{arguments:?}");
     }
 }
+
+#[test]
+#[should_panic(expected = "there is no direction 2 among 2")]
+fn a_variable_has_a_direction() {
+    _ = Dual::<f64, 2>::variable(1.0, 2);
+}

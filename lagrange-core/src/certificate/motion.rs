@@ -90,6 +90,13 @@ pub(crate) fn verify<T: Scalar>(
     share: f64,
 ) -> Result<Certificate, Error> {
     record.check_recorded()?;
+    if !(0.0..=1.0).contains(&share) {
+        return Err(Error::Argument {
+            what: "share of the steps",
+            value: share,
+            expected: "between 0 and 1",
+        });
+    }
     Ok(against(record, record.system.declaration(), seed, share))
 }
 

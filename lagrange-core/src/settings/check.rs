@@ -93,8 +93,23 @@ impl Settings {
             check_place("index of the item that is left out", item.place(d))?;
         }
         for awaited in &self.last_events {
+            let what = "index of the item after whose event the run ends";
             let place = awaited.subject.place(d);
-            check_place("index of the item after whose event the run ends", place)?;
+            check_place(what, place)?;
+            let item = awaited.subject.item();
+            if item.is_some_and(|item| !self.effects.includes(d, item)) {
+                let expected =
+                    "that of one that takes part: this one is left out, and so are its events";
+                return Err(argument(what, place.0 as f64, expected));
+            }
+            if awaited.number == 0 {
+                let what = "number of the event after which the run ends";
+                return Err(argument(
+                    what,
+                    0.0,
+                    "1 or more: the first event has number 1",
+                ));
+            }
         }
         Ok(())
     }

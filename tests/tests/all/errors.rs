@@ -336,6 +336,25 @@ fn arguments_are_checked() {
     }
 }
 
+#[test]
+fn a_share_of_the_steps_is_one() {
+    let run = Simulation::new(&shell()).run(State::new(vec![1.0, 0.1], vec![0.0; 2]), 0.0..0.1);
+    let run = run.expect("a run");
+    for share in [f64::NAN, -0.1, 1.5] {
+        let refused = run.verify_share(1, share).expect_err("no share");
+        assert!(matches!(
+            refused,
+            Error::Argument {
+                what: "share of the steps",
+                ..
+            }
+        ));
+    }
+    for share in [0.0, 1.0] {
+        assert!(run.verify_share(1, share).expect("a certificate").holds());
+    }
+}
+
 /// Two bodies take about a step per radian: 1e20 s are out of reach long before the last step that is allowed.
 #[test]
 fn a_run_whose_end_is_out_of_reach_is_told_so() {

@@ -174,7 +174,10 @@ pub fn check_derivatives<S: Derived<Scalar = f64> + Default>(source: &str) {
             let seeded: Vec<Dual<f64, 1>> = x
                 .iter()
                 .enumerate()
-                .map(|(i, x)| Dual::variable(*x, usize::from(i != input)))
+                .map(|(i, x)| match i == input {
+                    true => Dual::variable(*x, 0),
+                    false => Dual::constant(*x),
+                })
                 .collect();
             let duals = d.motion.evaluate(&held, &constants, &parameters, &seeded);
             let moved = |h: f64| {
