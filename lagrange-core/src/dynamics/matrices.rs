@@ -3,7 +3,9 @@
 use super::Dynamics;
 use super::shape::{Extent, SYSTEM};
 use crate::arithmetic::Scalar;
+use crate::effects::Item;
 use crate::linear::{Freedom, Rank, dot, least_norm};
+use crate::mode::FrictionMode;
 use nalgebra::{DMatrix, DVector};
 
 impl<T: Scalar> Dynamics<T> {
@@ -26,6 +28,27 @@ impl<T: Scalar> Dynamics<T> {
             .iter()
             .map(|&place| self.motion(place));
         DVector::from_iterator(self.description().coordinates.len(), forcing)
+    }
+
+    /// What friction that slips, and applied forces that are proportional to other forces, add to f, one per coordinate, at the last
+    /// [`Self::value`]: M v̇ = f + Aᵀ λ + this.
+    pub fn coupled_forces(&self) -> DVector<T> {
+        let d = self.description();
+        let mut sum = DVector::from_element(d.coordinates.len(), T::default());
+        let frictions = d.frictions.iter().zip(&self.mode().frictions);
+        let slides = frictions.filter(|(_, state)| matches!(state, FrictionMode::Slip(_)));
+        for row in slides.flat_map(|(friction, _)| friction.rows()) {
+            for &(j, place) in d.rows[row].jacobian {
+                sum[j] += self.motion(place) * self.force(row);
+            }
+        }
+        for coupling in d.couplings {
+            let owner = d.forces.iter().position(|f| f.need == coupling.need);
+            if owner.is_none_or(|i| self.effects().includes(d, Item::Force(i))) {
+                sum[coupling.coordinate] += self.motion(coupling.factor) * self.force(coupling.row);
+            }
+        }
+        sum
     }
 
     /// Whether M is positive definite at the evaluation at hand, which need not have come to its end.

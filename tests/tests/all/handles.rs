@@ -332,3 +332,57 @@ fn a_contact_at_a_point_is_called_by_its_normal_force() {
     agree("x", end.q(Block::X), 20.0 / 3.0 / 2.0 / 2.0, 1e-13);
     agree("λ", end.force(Block::FLOOR), 4.0, 1e-14);
 }
+
+/// A sledge on a floor; what pulls another mass, which a brake holds back, grows with its weight.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, u),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2) + other/2 * der(u)^2,
+    potential = mass * gravity * y,
+    contact(floor: y >= 0),
+    friction(rub on floor: slip = der(x), static = mu),
+    friction(brake: slip = der(u), limit = hold),
+    force(pull: u = share * floor),
+    start(go: der(x) = 1, der(u) = 2),
+)]
+struct Sledge {
+    mass: f64,
+    other: f64,
+    gravity: f64,
+    mu: f64,
+    hold: f64,
+    share: f64,
+}
+
+/// M v̇ = f + Aᵀ λ + c, with c of the frictions that slip and of the pull by hand, before and after the sledge has come to rest at 1/(μ g).
+#[test]
+fn the_matrices_of_an_instant_make_its_accelerations() {
+    for [mu, hold, share] in [[0.3, 1.5, 0.2], [0.7, 2.0, 0.4]] {
+        let sledge = Sledge {
+            mass: 1.4,
+            other: 0.6,
+            gravity: 9.81,
+            mu,
+            hold,
+            share,
+        };
+        let run = Simulation::new(&sledge).run(sledge.at(Sledge::GO), 0.0..1.0);
+        let run = run.expect("a run");
+        let mut sampler = run.sampler();
+        let weight = 1.4 * 9.81;
+        for (t, rubs, rows) in [(0.05, -mu * weight, 1), (0.9, 0.0, 2)] {
+            let now = sampler.at(t).expect("inside");
+            let equations = sampler.dynamics();
+            let coupled = equations.coupled_forces();
+            agree("rub", coupled[0], rubs, 1e-12);
+            agree("floor", coupled[1], 0.0, 1e-12);
+            agree("pull and brake", coupled[2], share * weight - hold, 1e-12);
+            let acting = equations.constraint_jacobian();
+            assert_eq!(acting.nrows(), rows);
+            let forces = equations.forcing() + acting.transpose() * equations.multipliers();
+            let inertial = equations.mass_matrix() * now.accelerations();
+            assert!((inertial - forces - coupled).norm() < 1e-12);
+            agree("u", now.a(Sledge::U), (share * weight - hold) / 0.6, 1e-12);
+        }
+    }
+}
