@@ -142,9 +142,8 @@ impl<T: Scalar> Decider<T> {
     /// Finds the mode in which the motion goes on, into [`Self::decision`].
     ///
     /// On success `dynamics` is left in that mode. Where a few modes are possible all are looked at; the order of preference among
-    /// feasible ones is: stick before slip, closed before open, then the present mode, then the fewest changes, then that what has been overcome lets
-    /// go. Where they are many, see
-    /// [`pivot`], and where there is none, [`together`].
+    /// feasible ones is: none before those with contacts that are open and yet lie, stick before slip, closed before open, then the present mode, then
+    /// the fewest changes, then that what has been overcome lets go. Where they are many, see [`pivot`], and where there is none, [`together`].
     ///
     /// # Errors
     /// [`Error::NoMode`] if no candidate is feasible (Painlevé's paradox).
@@ -344,7 +343,7 @@ impl<T: Scalar> Decider<T> {
         candidates: &Candidates,
     ) -> Result<bool, EvaluationError> {
         self.tried = 0;
-        let (mut best, mut failure, mut evaluated) = (None, None, false);
+        let (mut best, mut failure, mut evaluated) = (None::<Found>, None, false);
         // Without friction the accelerations are the only ones that Gauss's principle allows: no other mode has others.
         let idle = |mode: &Mode| mode.frictions.iter().all(|f| *f == FrictionMode::Inactive);
         let unique = dynamics.description().couplings.is_empty()
@@ -356,22 +355,28 @@ impl<T: Scalar> Decider<T> {
                 continue;
             }
             // Stick is preferred to slip without being ambiguous (μs > μk allows both).
-            if best.is_some_and(|held| unique || held > sticks(mode)) {
+            let passes = |found: Found| unique || !found.lies && found.sticks > sticks(mode);
+            if best.is_some_and(passes) {
                 continue;
             }
             self.decision.expanded = false;
             let outcome = self.examine(dynamics, table, here, mode);
             // Another than the best leaves its own series behind.
             self.decision.expanded &= best.is_none();
+            let lies = self.zeros.iter().any(|&(guard, order)| {
+                matches!(guard, Guard::Gap(_)) && order >= guard::LENGTH
+            });
             match outcome {
-                Ok(true) if best.is_none() => {
-                    best = Some(sticks(mode));
+                Ok(true) if best.is_none_or(|found| found.lies && !lies) => {
+                    let sticks = sticks(mode);
+                    best = Some(Found { sticks, lies });
                     self.decision.ambiguous = self.forks;
                     self.keep(dynamics);
                 }
-                Ok(true) => {
+                Ok(true) if best.is_some_and(|found| found.lies == lies) => {
                     self.decision.ambiguous |= differ(&self.motion, dynamics.acceleration());
                 }
+                Ok(true) => {}
                 Ok(false) => evaluated = true,
                 Err(error) => failure = Some((mode, error)),
             }
@@ -461,6 +466,15 @@ impl<T: Scalar> Decider<T> {
         let motion = dynamics.acceleration().iter().map(|a| a.value());
         self.motion.extend(motion);
     }
+}
+
+/// The best mode so far.
+#[derive(Clone, Copy)]
+struct Found {
+    /// How many frictions stick.
+    sticks: usize,
+    /// Whether a contact is open that nothing lifts: others carry its share of the load, as they need not.
+    lies: bool,
 }
 
 fn sticks(mode: &Mode) -> usize {
