@@ -26,8 +26,19 @@ pub struct Listings {
     facts: Vec<Candidates>,
     /// Index of the list to be written over next.
     oldest: usize,
-    /// Per friction: it comes to rest at the instant and cannot hold.
-    fading: Vec<bool>,
+    /// Per friction.
+    grips: Vec<Grip>,
+}
+
+/// What a friction can do by the numbers at hand, which parameters change.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Grip {
+    /// It has no force at all.
+    Absent,
+    /// It has slipped until it came to rest now, and cannot hold.
+    Fades,
+    /// It slips, and holds where it is at rest.
+    Holds,
 }
 
 /// Modes in order of preference.
@@ -79,27 +90,27 @@ struct Facts {
     resting: Vec<bool>,
     balanced: Vec<bool>,
     /// As in [`Listings`].
-    fading: Vec<bool>,
+    grips: Vec<Grip>,
 }
 
 impl Facts {
-    fn of(here: SwitchContext<'_, impl Copy>, fading: &[bool]) -> Self {
+    fn of(here: SwitchContext<'_, impl Copy>, grips: &[Grip]) -> Self {
         let SwitchContext { present, facts, .. } = here;
         Self {
             present: present.clone(),
             touching: facts.touching.clone(),
             resting: facts.resting.clone(),
             balanced: facts.balanced.clone(),
-            fading: fading.to_vec(),
+            grips: grips.to_vec(),
         }
     }
 
-    fn are(&self, here: SwitchContext<'_, impl Copy>, fading: &[bool]) -> bool {
+    fn are(&self, here: SwitchContext<'_, impl Copy>, grips: &[Grip]) -> bool {
         let SwitchContext { present, facts, .. } = here;
         self.touching == facts.touching
             && self.resting == facts.resting
             && self.balanced == facts.balanced
-            && self.fading == fading
+            && self.grips == grips
             && self.present == *present
     }
 }
@@ -152,9 +163,9 @@ impl Listings {
         let follows = !looked && !here.facts.located.iter().any(composite);
         let choices = Choices { dynamics, here };
         let frictions = 0..choices.description().frictions.len();
-        self.fading.clear();
-        self.fading.extend(frictions.map(|f| choices.fades(f)));
-        let known = |facts: &Facts| facts.are(here, &self.fading);
+        self.grips.clear();
+        self.grips.extend(frictions.map(|f| choices.grip(f)));
+        let known = |facts: &Facts| facts.are(here, &self.grips);
         let same = |list: &Candidates| list.facts.as_ref().is_some_and(known);
         let found = self.facts.iter().position(same).filter(|_| follows);
         let index = found.unwrap_or_else(|| {
@@ -173,7 +184,7 @@ impl Listings {
             scratch.clone_from(here.present);
             listing.contacts(scratch, 0);
             if list.modes.len() <= MOST_CANDIDATES {
-                list.facts = follows.then(|| Facts::of(here, &self.fading));
+                list.facts = follows.then(|| Facts::of(here, &self.grips));
             }
             self.oldest
         });
@@ -231,7 +242,16 @@ impl<T: Scalar> Choices<'_, T> {
         self.dynamics.description()
     }
 
-    /// Whether friction `f` has slipped until it came to rest now, and cannot hold.
+    fn grip(&self, f: usize) -> Grip {
+        if self.is_smooth(f) {
+            Grip::Absent
+        } else if self.fades(f) {
+            Grip::Fades
+        } else {
+            Grip::Holds
+        }
+    }
+
     fn fades(&self, f: usize) -> bool {
         self.here.facts.resting[f]
             && slip_sign(f, self.here).is_some()
@@ -254,8 +274,9 @@ impl<T: Scalar> Choices<'_, T> {
     pub fn of_friction(&self, mode: &Mode, f: usize, mut put: impl FnMut(FrictionMode)) {
         let d = self.description();
         let friction = &d.frictions[f];
-        let idle = !friction.normal.presses(|c| mode.contacts[c]) || self.is_smooth(f);
-        if idle || !self.dynamics.effects().includes(d, Item::Friction(f)) {
+        let idle = !friction.normal.presses(|c| mode.contacts[c]);
+        let grip = self.grip(f);
+        if idle || grip == Grip::Absent || !self.dynamics.effects().includes(d, Item::Friction(f)) {
             return put(FrictionMode::Inactive);
         }
         let bearings: &[f64] = if let Normal::Constraint(_) = friction.normal {
@@ -280,7 +301,7 @@ impl<T: Scalar> Choices<'_, T> {
             }
         } else if self.here.facts.resting[f] {
             // What cannot hold does not bring a slip to rest.
-            if !self.fades(f) {
+            if grip != Grip::Fades {
                 put(FrictionMode::Stick);
             }
             for &bearing in bearings {

@@ -363,9 +363,10 @@ impl<T: Scalar> Decider<T> {
             let outcome = self.examine(dynamics, table, here, mode);
             // Another than the best leaves its own series behind.
             self.decision.expanded &= best.is_none();
-            let lies = self.zeros.iter().any(|&(guard, order)| {
-                matches!(guard, Guard::Gap(_)) && order >= guard::LENGTH
-            });
+            let lies = self
+                .zeros
+                .iter()
+                .any(|&(guard, order)| matches!(guard, Guard::Gap(_)) && order >= guard::LENGTH);
             match outcome {
                 Ok(true) if best.is_none_or(|found| found.lies && !lies) => {
                     let sticks = sticks(mode);
