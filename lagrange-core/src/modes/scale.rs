@@ -178,6 +178,11 @@ impl Sizes {
         value.abs() / size.max(f64::MIN_POSITIVE)
     }
 
+    /// Size of the accelerations of coordinate `j`.
+    pub fn of_coordinate(&self, j: usize) -> f64 {
+        self.mobility[j].sqrt() * self.drive
+    }
+
     /// Size of the accelerations along a row.
     pub fn acceleration<T: Scalar>(&self, row: usize, dynamics: &Dynamics<T>) -> f64 {
         self.row(row, dynamics).acceleration

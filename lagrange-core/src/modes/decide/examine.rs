@@ -1,7 +1,7 @@
 //! Whether one candidate mode is feasible: its guards at the instant and, of those that vanish, just after it.
 
 use super::Decider;
-use super::just_after::{AHEAD, reach, terms};
+use super::just_after::{AHEAD, terms};
 use super::questions::{blame, concerns, leading, list_questions};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{AT_REST, Dynamics, EvaluationError, OutputMask};
@@ -162,13 +162,13 @@ impl<T: Scalar> Decider<T> {
         if self.composites.is_empty() {
             return;
         }
+        let reach = self.reach(dynamics, order, here.moment.allowed());
         let Self {
             redundant,
             composites,
             sizes,
             ..
         } = self;
-        let reach = reach(dynamics, order, here.moment.allowed());
         let nothing = |f: usize| {
             let size = sizes.of(Guard::NormalForceSign(f), dynamics);
             1e3 * here.blur() * size
@@ -191,7 +191,7 @@ impl<T: Scalar> Decider<T> {
             return Ok(true);
         }
         let EvaluationPoint { t, q, v, .. } = here.moment;
-        let later = T::from_f64(AHEAD * reach(dynamics, order, here.moment.allowed()));
+        let later = T::from_f64(AHEAD * self.reach(dynamics, order, here.moment.allowed()));
         let series = |row: &[T]| horner(&row[..=order], later);
         let coordinates = 0..q.len();
         let place = coordinates
@@ -241,7 +241,7 @@ impl<T: Scalar> Decider<T> {
         dynamics.set_extra_needs(&guard::all_row_needs(d, needs));
         dynamics.series(moment.t, moment.q, moment.v, moment.order)?;
         self.decision.expanded = false;
-        let h = reach(dynamics, moment.order, moment.allowed());
+        let h = self.reach(dynamics, moment.order, moment.allowed());
         let largest = |series: &[T]| terms(series.iter().map(|c| c.value()), h).fold(0.0, f64::max);
         let reading = Reading::Series(dynamics);
         let size = |place: ValueRef| largest(reading.motion(place).as_slice());

@@ -19,6 +19,13 @@ pub(super) const AHEAD: f64 = 1e-2;
 /// Instants are located to this share of the tolerance, in parts of what a series reaches over.
 const INSTANT: f64 = 1e-3;
 
+/// Accelerations that are all below this share of what forces make where they do not cancel are rounding of them. What that moves shows after long
+/// enough: guards are looked at
+const ROUNDING: f64 = 1e-12;
+
+/// over no more than so many times the time in which those forces would move a coordinate by its unit.
+const TIMES: f64 = 10.0;
+
 /// So many composite guards at most begin at their border.
 const MOST_JOINTS: usize = 20;
 
@@ -48,17 +55,31 @@ impl<T: Scalar> Clone for Ahead<'_, T> {
 
 impl<T: Scalar> Copy for Ahead<'_, T> {}
 
-/// How far the series of the state at hand reach with this error, s; 1 if they end.
-pub(super) fn reach<T: Scalar>(
-    dynamics: &Dynamics<T>,
-    order: usize,
-    allowed: Tolerance<'_>,
-) -> f64 {
-    let step = taylor::step_size(dynamics.state_series(), order, allowed);
-    step.filter(|h| h.is_finite()).unwrap_or(1.0)
-}
-
 impl<T: Scalar> Decider<T> {
+    /// How far the series of the state at hand reach with this error, s; 1 if they end.
+    pub(super) fn reach(
+        &self,
+        dynamics: &Dynamics<T>,
+        order: usize,
+        allowed: Tolerance<'_>,
+    ) -> f64 {
+        let step = taylor::step_size(dynamics.state_series(), order, allowed);
+        let step = step.filter(|h| h.is_finite()).unwrap_or(1.0);
+        let coordinates = (0..dynamics.acceleration().len())
+            .map(|j| (j, self.sizes.of_coordinate(j)))
+            .filter(|(_, size)| *size > 0.0);
+        let rounding =
+            |(j, size): (usize, f64)| dynamics.acceleration()[j].value().abs() <= ROUNDING * size;
+        if !coordinates.clone().all(rounding) {
+            return step;
+        }
+        let times = coordinates.map(|(j, size)| {
+            let unit = 1.0 + dynamics.position_series(j)[0].value().abs();
+            TIMES * (unit / size).sqrt()
+        });
+        times.fold(step, f64::min)
+    }
+
     /// Looks at the guards in question just after the moment. `None`: one of them vanishes to this order, and more is to
     /// be had.
     pub(super) fn judge(
@@ -76,7 +97,9 @@ impl<T: Scalar> Decider<T> {
             1e-3
         };
         let allowed = Tolerance::both(allowed);
-        let h = reach(dynamics, order, allowed).min(self.directions_last(dynamics, facts));
+        let h = self
+            .reach(dynamics, order, allowed)
+            .min(self.directions_last(dynamics, facts));
         let ahead = Ahead {
             dynamics,
             here,
