@@ -32,11 +32,23 @@ const APART: f64 = 1e-6;
 /// and of what forces could make of it beyond this one: rounding of forces that cancel is left.
 const CANCELLED: f64 = 1e-12;
 
-/// A force that takes away no more than this of the momentum in a second may be what rounding of the state leaves of zero,
+/// A force that takes away no more than this of the momentum in a second, or an acceleration of the speeds, may be what rounding of the state leaves of zero,
 const NOTHING: f64 = 1e-12;
 
 /// as shows in how it changes with the state, when that changes by so much, relative.
 const SHAKE: f64 = 1e-8;
+
+/// A guard that may be rounding.
+#[derive(Clone, Debug)]
+pub(super) struct Doubt {
+    guard: Guard,
+    /// How many of its coefficients are known to vanish.
+    order_known: usize,
+    /// The first that is not, times its factorial,
+    value: f64,
+    /// and what it would be if the state changed by its own size.
+    size: f64,
+}
 
 impl<T: Scalar> Decider<T> {
     /// Whether `mode` is feasible; if so, `zeros` says which guards begin with how many vanishing coefficients, and if not,
@@ -299,8 +311,19 @@ impl<T: Scalar> Decider<T> {
         let exactly = here.moment.tolerance == 0.0;
         // A force that was located as zero has nothing that it could be compared with.
         let all_vanish = RESIDUES * facts.residue >= 1.0;
-        let speeds = here.moment.v.iter().map(|v| v.value().abs() + AT_REST);
-        let nothing = NOTHING * self.sizes.momentum(speeds);
+        let speed = |j: usize| here.moment.v[j].value().abs() + AT_REST;
+        let speeds = (0..here.moment.v.len()).map(speed);
+        let no_force = NOTHING * self.sizes.momentum(speeds);
+        let d = dynamics.description();
+        let nothing = |guard: Guard| match guard {
+            Guard::Gap(c) => Some(NOTHING * dynamics.size_of_row(d.contacts[c].row, speed)),
+            Guard::Slip(f) => {
+                let rows = d.frictions[f].rows();
+                let sizes = rows.map(|row| dynamics.size_of_row(row, speed));
+                Some(NOTHING * sizes.fold(0.0, f64::max))
+            }
+            guard => guard.is_single_force().then_some(no_force),
+        };
         let Self {
             sizes,
             questions,
@@ -327,8 +350,13 @@ impl<T: Scalar> Decider<T> {
             };
             let noise = if concerns(guard, composites, facts) {
                 1e3 * here.blur()
-            } else if guard.is_single_force() && value.abs() <= nothing {
-                doubtful.push((guard, value, 0.0));
+            } else if nothing(guard).is_some_and(|nothing| value.abs() <= nothing) {
+                doubtful.push(Doubt {
+                    guard,
+                    order_known,
+                    value,
+                    size: 0.0,
+                });
                 return true;
             } else {
                 1e-6
@@ -356,7 +384,7 @@ impl<T: Scalar> Decider<T> {
         });
     }
 
-    /// Where nothing makes forces but what is known to rounding only, as at the lowest point of a pendulum: how large forces in doubt would be if the
+    /// Where nothing makes forces but what is known to rounding only, as at the lowest point of a pendulum: how large guards in doubt would be if the
     /// state changed by its own size.
     ///
     /// # Errors
@@ -380,10 +408,10 @@ impl<T: Scalar> Decider<T> {
             if dynamics.value(moment.t, &q, &v).is_err() {
                 continue;
             }
-            let reading = Reading::Values(dynamics);
-            for (guard, value, size) in &mut self.doubtful {
-                let change = guard::value(*guard, &self.posed, &reading) - *value;
-                *size = size.max((change / SHAKE).abs());
+            for doubt in &mut self.doubtful {
+                let moved = leading(doubt.guard, doubt.order_known, &[], &self.posed, dynamics);
+                let change = moved.map_or(0.0, |moved| moved - doubt.value);
+                doubt.size = doubt.size.max((change / SHAKE).abs());
             }
         }
         dynamics.value(moment.t, moment.q, moment.v)
@@ -392,7 +420,7 @@ impl<T: Scalar> Decider<T> {
     /// Size of the terms that make a guard.
     pub(super) fn size(&self, guard: Guard, dynamics: &Dynamics<T>) -> f64 {
         let mut doubtful = self.doubtful.iter();
-        let shaken = doubtful.find_map(|(other, _, size)| (*other == guard).then_some(*size));
+        let shaken = doubtful.find_map(|doubt| (doubt.guard == guard).then_some(doubt.size));
         self.sizes.of(guard, dynamics).max(shaken.unwrap_or(0.0))
     }
 }

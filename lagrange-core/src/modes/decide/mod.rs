@@ -32,6 +32,7 @@ use crate::modes::scale::Sizes;
 use crate::modes::table::Table;
 use crate::system::{Constraint, Description};
 use candidates::{Candidates, Listings, MOST_CANDIDATES};
+use examine::Doubt;
 use incipient::Beginning;
 
 /// The mode that goes on.
@@ -61,8 +62,8 @@ pub struct Decider<T> {
     questions: Vec<(Guard, usize)>,
     zeros: Vec<(Guard, usize)>,
     at_limit: Vec<(Guard, f64)>,
-    /// Forces that may be rounding, with their sizes if the state changed by its own.
-    doubtful: Vec<(Guard, f64, f64)>,
+    /// Guards that may be rounding.
+    doubtful: Vec<Doubt>,
     /// What forbids the candidate examined last.
     violated: Vec<Guard>,
     redundant: RedundantForces<T>,
