@@ -141,11 +141,23 @@ impl<T: Scalar> ForceBounds<T> {
 
     /// The least of bounds with these `values` as they are.
     pub(crate) fn least(&self, values: &[f64]) -> f64 {
-        let of = |cone: &Cone| match *cone {
+        self.each(values).fold(f64::INFINITY, f64::min)
+    }
+
+    /// How far bounds with these `values` are from being broken.
+    fn each(&self, values: &[f64]) -> impl Iterator<Item = f64> {
+        self.cones.iter().map(|cone| match *cone {
             Cone::Ray(i) => values[i],
             Cone::SecondOrder(i) => values[i] - values[i + 1].hypot(values[i + 2]),
-        };
-        self.cones.iter().map(of).fold(f64::INFINITY, f64::min)
+        })
+    }
+
+    /// By how much more than the margin the `widest` forces keep each of the bounds with these `values`.
+    pub(crate) fn slacks(&self, values: &[f64], widest: &DVector<f64>) -> Vec<f64> {
+        let columns = self.open.ncols();
+        let kept = DVector::from_column_slice(values) + &self.open * widest.rows(0, columns);
+        let slacks = self.each(kept.as_slice());
+        slacks.map(|bound| bound - widest[columns]).collect()
     }
 
     /// The forces (y, margin) that keep bounds with these `values` by the largest margin up to `most`.

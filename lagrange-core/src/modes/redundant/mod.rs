@@ -262,7 +262,7 @@ impl<T: Scalar> RedundantForces<T> {
         if !self.has_open() || forces.least(values) >= margin {
             return None;
         }
-        let ConicPoint { z, .. } = forces.widest(values, margin);
+        let ConicPoint { x, z } = forces.widest(values, margin);
         let weights = forces.cones.iter().map(|cone| z[cone.first()]);
         // The rest is the weight of the margin asked for.
         let sum: f64 = weights.clone().sum();
@@ -271,13 +271,17 @@ impl<T: Scalar> RedundantForces<T> {
             return None;
         }
         let largest = weights.fold(0.0, f64::max);
+        let slacks = forces.slacks(values, &x);
         let list = self
             .bounds
             .list
             .iter()
             .zip(forces.cones.iter().zip(&forces.sizes));
-        let parts = list.filter(|(_, (cone, _))| z[cone.first()] > NO_WEIGHT * largest);
-        let parts = parts.map(|(bound, (cone, size))| {
+        // Of a weight and a slack one is zero.
+        let weighs = |cone: &Cone, slack: f64| z[cone.first()] > slack.max(NO_WEIGHT * largest);
+        let parts = list.zip(slacks);
+        let parts = parts.filter(|((_, (cone, _)), slack)| weighs(cone, *slack));
+        let parts = parts.map(|((bound, (cone, size)), _)| {
             let weight = z[cone.first()];
             let along = |i: usize| [i + 1, i + 2].map(|i| -z[i] / weight);
             Part {
