@@ -15,6 +15,8 @@ pub(super) struct Bound {
     pub guard: Guard,
     /// What the forces of the constraints that carry a friction count.
     pressing: [f64; 3],
+    /// The contact whose force the friction holds a constant share of.
+    pub contact: Option<usize>,
 }
 
 impl Bound {
@@ -54,7 +56,12 @@ impl<T: Scalar> RedundantForces<T> {
         for (c, contact) in d.contacts.iter().enumerate() {
             if let Some(i) = index(contact.row) {
                 let gap = [(&[(i, T::one())][..], T::zero())];
-                self.bound(Guard::Normal(c), [1.0, 0.0, 0.0], gap, dynamics);
+                let bound = Bound {
+                    guard: Guard::Normal(c),
+                    pressing: [1.0, 0.0, 0.0],
+                    contact: None,
+                };
+                self.bound(bound, gap, dynamics);
             }
         }
         for (f, friction) in d.frictions.iter().enumerate() {
@@ -109,7 +116,15 @@ impl<T: Scalar> RedundantForces<T> {
                 }
             };
             let one = T::one();
-            let presses = pressing.map(T::value);
+            let contact = match friction.normal {
+                Normal::Contact(c) if !friction.static_coefficient.varies() => Some(c),
+                _ => None,
+            };
+            let bound = |guard| Bound {
+                guard,
+                pressing: pressing.map(T::value),
+                contact,
+            };
             if guard::stick_guards(f, friction).eq([Guard::StickCone(f)]) {
                 let other = (friction.components > 1).then(|| index(friction.row + 1));
                 let other = other.flatten().map(|j| (j, one));
@@ -118,12 +133,12 @@ impl<T: Scalar> RedundantForces<T> {
                     (&[(i, one)], T::zero()),
                     (other.as_slice(), T::zero()),
                 ];
-                self.bound(Guard::StickCone(f), presses, cone, dynamics);
+                self.bound(bound(Guard::StickCone(f)), cone, dynamics);
             } else {
                 let sides = [(Guard::StickUpper(f), -one), (Guard::StickLower(f), one)];
                 for (guard, sign) in sides {
                     let terms = [&[(i, sign)], &limits[..]].concat();
-                    self.bound(guard, presses, [(&terms, constant)], dynamics);
+                    self.bound(bound(guard), [(&terms, constant)], dynamics);
                 }
             }
         }
@@ -176,21 +191,20 @@ impl<T: Scalar> RedundantForces<T> {
     /// Adds a bound, if it has a part that is open: s ≥ 0, or s₀ ≥ √(s₁² + s₂²).
     fn bound<const N: usize>(
         &mut self,
-        guard: Guard,
-        pressing: [f64; 3],
+        bound: Bound,
         rows: [Linear<'_, T>; N],
         dynamics: &Dynamics<T>,
     ) {
         let least = &self.least;
-        let own = || match guard {
+        let own = || match bound.guard {
             // Without the unit that the squares of its guard have.
             Guard::StickCone(f) => self.sizes.limit(f, dynamics),
-            _ => self.sizes.of(guard, dynamics),
+            guard => self.sizes.of(guard, dynamics),
         };
         let bounds = &mut self.bounds.forces;
         let is_open = bounds.add(rows, &least.forces, &least.freedom, own);
         if is_open {
-            self.bounds.list.push(Bound { guard, pressing });
+            self.bounds.list.push(bound);
         }
     }
 }

@@ -281,6 +281,11 @@ impl<T: Scalar> RedundantForces<T> {
         let weighs = |cone: &Cone, slack: f64| z[cone.first()] > slack.max(NO_WEIGHT * largest);
         let parts = list.zip(slacks);
         let parts = parts.filter(|((_, (cone, _)), slack)| weighs(cone, *slack));
+        // What frictions can hold ends with the forces of contacts, where these tell of it by themselves.
+        let told = parts.clone().all(|((bound, _), _)| {
+            let normal = bound.contact.map(Guard::Normal);
+            normal.is_some_and(|normal| !self.is_open(normal))
+        });
         let parts = parts.map(|((bound, (cone, size)), _)| {
             let weight = z[cone.first()];
             let along = |i: usize| [i + 1, i + 2].map(|i| -z[i] / weight);
@@ -293,10 +298,11 @@ impl<T: Scalar> RedundantForces<T> {
                 weight: weight / (sum * size),
             }
         });
-        Some(CompositeGuard {
+        let composite = CompositeGuard {
             parts: parts.collect(),
             falls_after: None,
-        })
+        };
+        (!told || !composite.is_of_limits()).then_some(composite)
     }
 
     /// The forces of all rows at the last value of `dynamics`, and which of them are undetermined (nothing where all are
