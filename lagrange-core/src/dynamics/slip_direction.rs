@@ -36,8 +36,12 @@ const SETTLED: f64 = 1e-14;
 /// ṡ above this share of what friction does to it is no error.
 const CLEARLY: f64 = 1e-3;
 
-/// What rounding leaves of an equation for turns that says nothing, relative.
-const NO_ANSWER: f64 = 1e-11;
+/// An equation for turns says nothing by less than this share of what frictions do: a force that was located at its limit is off by as much, and
+/// with it ṡ.
+const NO_ANSWER: f64 = 1e-8;
+
+/// Of what cancels in s × u rounding leaves this share.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Coefficients of a direction.
 type Series<T> = [[T; 2]; MAX_ORDER + 2];
@@ -361,15 +365,20 @@ impl<T: Scalar> Dynamics<T> {
         }
     }
 
-    /// Coefficient `k` of s × u of slip direction `i`.
+    /// Coefficient `k` of s × u of slip direction `i`; zero where it is rounding, which grows without bound where slips begin smoothly.
     fn crossed(&self, i: usize, k: usize) -> T {
         let f = self.beginning(i);
-        let mut sum = T::zero();
+        let (mut sum, mut size) = (T::zero(), 0.0);
         for j in 1..=k {
             let u = self.slip_directions.coefficient(f, k - j);
-            sum += cross(self.slip_coefficient(f, j), u);
+            let s = self.slip_coefficient(f, j);
+            sum += cross(s, u);
+            size += (dot(s, s) * dot(u, u)).value().sqrt();
         }
-        sum
+        match sum.value().abs() <= ROUNDING * size {
+            true => derivatives(sum),
+            false => sum,
+        }
     }
 
     /// D, from what a turn of order 1 does to the slip of order 2; and what a friction that grows or turns at the rate 1/s does to it.
