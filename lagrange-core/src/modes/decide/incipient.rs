@@ -23,6 +23,10 @@ const SMALL: f64 = 1e-6;
 const SETTLED: f64 = 1e-5;
 /// more than this share of the change before it changes no more.
 const STEADY: f64 = 0.9;
+/// Combinations of ṡ that should not change with the directions do, relative, by so many times the last change of these,
+const OFF: f64 = 10.0;
+/// at most.
+const UNCLEAR: f64 = 1e-2;
 /// Iterations that make a direction exact.
 const MOST_ITERATIONS: usize = 60;
 /// ṡ·u below this share of the largest ṡ, or of what frictions do to it, is not positive, nor negative,
@@ -348,7 +352,13 @@ impl Beginning {
                 let pairs = slips.into_iter().zip(beginning.along());
                 Ok(pairs.map(|([a, b], [x, y])| a * y - b * x).collect())
             })?;
-            open.find(&matrix, &strengths, SMALL);
+            // As long as angles are off, so is what would vanish.
+            let off = if before.is_finite() {
+                OFF * before
+            } else {
+                SMALL
+            };
+            open.find(&matrix, &strengths, off.clamp(SMALL, UNCLEAR));
             // Right at once, as by symmetry: forces that the motion leaves open may make what follows singular.
             let mut across = right.iter().zip(strengths.iter().zip(&sizes));
             let vanish = across
