@@ -90,13 +90,43 @@ impl<T: Scalar> Locator<T> {
 
     /// Forgets what belongs to another motion.
     pub(super) fn restart(&mut self) {
-        let watches = self.stop_below.iter_mut().chain(&mut self.mark_below);
+        let Self {
+            polynomials,
+            zeros,
+            entered,
+            opened,
+            lies,
+            at_limit,
+            blur,
+            falls,
+            fallen,
+            passing,
+            refuted,
+            rests,
+            resting: _,
+            slips,
+            earlier: _,
+            stop_below,
+            mark_below,
+            mark_passed,
+            marks,
+        } = self;
+        polynomials.composites.clear();
+        polynomials.held.clear();
+        zeros.clear();
+        entered.clear();
+        (*opened, *lies, *blur) = (false, false, 0.0);
+        at_limit.clear();
+        falls.clear();
+        fallen.clear();
+        passing.clear();
+        refuted.clear();
+        rests.clear();
+        slips.clear();
+        let watches = stop_below.iter_mut().chain(mark_below);
         watches.for_each(|terms| terms.fill(false));
-        self.mark_passed.fill(None);
-        self.entered.clear();
-        self.lies = false;
-        self.polynomials.composites.clear();
-        self.polynomials.held.clear();
+        mark_passed.fill(None);
+        marks.clear();
     }
 
     /// Whether the end of a step is the root of a guard, and how large what makes it is at least: of a force at its limit nothing else is left.
@@ -155,6 +185,7 @@ impl<T: Scalar> Run<T> {
                 at = at.min(s);
             }
         }
+        self.hit_at_edge(at);
         let guards = if self.locator.fallen.is_empty() {
             self.locator.rests.clear();
             Hit::Nothing

@@ -124,6 +124,31 @@ impl<T: Scalar> Run<T> {
         self.locator.passing = passing;
     }
 
+    /// What is hit where a surface ends, to rounding, is hit there: the floor of a room ends at its walls.
+    pub(super) fn hit_at_edge(&mut self, end: f64) {
+        let closed = |guard: &Guard| {
+            matches!(guard, Guard::Region(_)) && !is_edge_in_flight(*guard, &self.now.mode)
+        };
+        if !self.locator.fallen.iter().any(closed) {
+            return;
+        }
+        let mut fallen = core::mem::take(&mut self.locator.fallen);
+        let polynomials = &self.locator.polynomials;
+        for (guard, curve) in polynomials.of_mode() {
+            let gap = value(curve, end).abs();
+            if matches!(guard, Guard::Gap(_))
+                && !fallen.contains(&guard)
+                && !self.is_below(guard)
+                && slope(curve, end) < 0.0
+                && gap <= polynomials.rounding(gap, guard, &self.dynamics)
+                && self.within_region(guard, end)
+            {
+                fallen.push(guard);
+            }
+        }
+        self.locator.fallen = fallen;
+    }
+
     /// Whether the motion has come to the edge of a region.
     pub(super) fn is_at_edge(&self) -> bool {
         let mut fallen = self.locator.fallen.iter();
