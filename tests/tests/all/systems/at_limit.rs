@@ -3,7 +3,8 @@
 use super::state;
 use lagrange_core::prelude::*;
 use lagrange_tests::{
-    Random, SINGLE_METHODS, TOLERANCES, agm, agree, certified, methods_at, run_by,
+    Random, SINGLE_METHODS, TOLERANCES, agm, agree, all_agree, certified, event, methods_at,
+    run_by, words,
 };
 
 /// A block on a spring on a rough floor, under a load.
@@ -90,5 +91,168 @@ fn a_bead_comes_back_to_where_it_presses_with_nothing() {
         agree(&what, end.q[1], 0.0, within);
         agree(&what, end.v[1], 0.0, within);
         certified(&what, &motion);
+    }
+}
+
+/// A bead of 1 kg on a rough curve of second order.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = gravity * y,
+    contact(ground: along * y + bend * x^2 / 2 + round * y^2 / 2 >= 0),
+    friction(grip on ground: slip = (along + round*y) * der(x) - bend*x * der(y), static = mu),
+)]
+struct Bank {
+    gravity: f64,
+    along: f64,
+    bend: f64,
+    round: f64,
+    mu: f64,
+}
+
+/// Where the slope is as steep as friction can hold, to the last bit: on hills, in bowls and on ellipses it stays.
+#[test]
+fn a_bead_where_a_curve_is_just_as_steep_as_friction_holds_stays() {
+    for (method, tolerance) in methods_at(["auto", "dop853", "radau5"], TOLERANCES) {
+        let mut random = Random::new(31);
+        for case in 0..60 {
+            let (bend, round) = match case % 3 {
+                0 => (random.between(0.2, 2.0), 0.0),
+                1 => (random.between(-2.0, -0.2), 0.0),
+                _ => (random.between(-2.0, -0.2), random.between(-2.0, -0.2)),
+            };
+            let scene = Bank {
+                gravity: 9.81,
+                along: 1.0,
+                bend,
+                round,
+                mu: 0.0,
+            };
+            let x: f64 = random.sign() * random.between(0.05, 0.4);
+            // The lower one of the two places above x.
+            let y = match round {
+                0.0 => -bend * x * x / 2.0,
+                _ => (-1.0 + (1.0 - round * bend * x * x).sqrt()) / round,
+            };
+            let slope = (bend * x / (1.0 + round * y)).abs();
+            let ulps = random.below(3) as f64 - 1.0;
+            let mu = slope * (1.0 + ulps * f64::EPSILON);
+            let scene = Bank { mu, ..scene };
+            let what = format!("{scene:?} at {x} by {method} at {tolerance:e}");
+            let run = run_by(&scene, (method, tolerance), state(&[x, y], &[0.0; 2]), 2.0);
+            all_agree(&what, &run.final_state().q, &[x, y], 1e-11);
+            assert!(run.work().steps < 200, "{what}: {:?}", run.work());
+            certified(&what, &run);
+        }
+    }
+}
+
+/// A crate on two rough feet under a push that just does not tip it.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, z, tilt),
+    define(
+        left = [x - half*cos(tilt) + low*sin(tilt), z - half*sin(tilt) - low*cos(tilt)],
+        right = [x + half*cos(tilt) + low*sin(tilt), z + half*sin(tilt) - low*cos(tilt)],
+    ),
+    kinetic = mass/2 * (der(x)^2 + der(z)^2) + inertia/2 * der(tilt)^2,
+    potential = mass * gravity * z,
+    contact(heel: left[1] >= 0),
+    contact(toe: right[1] >= 0),
+    friction(drag on heel: slip = der(left[0]), static = hold, kinetic = rub),
+    friction(grip on toe: slip = der(right[0]), static = hold, kinetic = rub),
+    force(push: (push + grows*t, 0) at (x - high*sin(tilt), z + high*cos(tilt))),
+    start(rest: z = low),
+)]
+struct Crate {
+    mass: f64,
+    inertia: f64,
+    gravity: f64,
+    half: f64,
+    low: f64,
+    high: f64,
+    hold: f64,
+    rub: f64,
+    push: f64,
+    grows: f64,
+}
+
+/// m g a = F h in round numbers: nothing presses the heel, and all of the friction is the toe's.
+#[test]
+fn a_crate_that_is_just_not_tipped_stays() {
+    for mass in [1.0, 1.5, 2.0, 3.0] {
+        for half in [0.1, 0.2, 0.3, 0.6, 0.7] {
+            for low in [0.3, 0.5, 1.0] {
+                let height = 2.0 * low;
+                let push = mass * 10.0 * half / height;
+                let mu = half / height + 0.1;
+                let scene = Crate {
+                    mass,
+                    inertia: 0.3,
+                    gravity: 10.0,
+                    half,
+                    low,
+                    high: low,
+                    hold: mu,
+                    rub: mu,
+                    push,
+                    grows: 0.0,
+                };
+                for (method, tolerance) in methods_at(["auto", "dop853", "radau5"], [1e-6, 1e-9]) {
+                    let what = format!("{scene:?} by {method} at {tolerance:e}");
+                    let run = run_by(&scene, (method, tolerance), scene.at(Crate::REST), 1.0);
+                    let end = run.final_state();
+                    all_agree(&what, &end.q, &[0.0, low, 0.0], 1e-11);
+                    let mut sampler = run.sampler();
+                    let now = sampler.at(1.0).expect("recorded");
+                    agree(&what, now.force(Crate::GRIP), -push, 1e-8 * push);
+                    certified(&what, &run);
+                }
+            }
+        }
+    }
+}
+
+/// A push that grows tips it where m g a = F h, although both feet could slide a little later, and slide on with less friction: what holds has not been
+/// overcome.
+#[test]
+fn a_crate_tips_a_little_before_it_would_slide() {
+    for (mass, half, rub, nearly) in [
+        (2.0, 0.4, 0.25, 1e-4),
+        (1.0, 0.3, 0.2, 1e-5),
+        (3.0, 0.5, 0.4, 1e-6),
+    ] {
+        let (hold, low) = (0.5, 0.5);
+        let scene = Crate {
+            mass,
+            inertia: 0.3,
+            gravity: 10.0,
+            half,
+            low,
+            high: half / hold * (1.0 + nearly) - low,
+            hold,
+            rub,
+            push: 0.0,
+            grows: 10.0,
+        };
+        let tips = mass * 10.0 * half / (scene.high + low) / scene.grows;
+        for (method, tolerance) in methods_at(["auto", "dop853", "radau5"], [1e-9, 1e-12]) {
+            let what = format!("{scene:?} by {method} at {tolerance:e}");
+            let run = run_by(
+                &scene,
+                (method, tolerance),
+                scene.at(Crate::REST),
+                tips + 0.01,
+            );
+            assert_eq!(words(&run), ["heel lost"], "{what}");
+            agree(
+                &what,
+                event(&run, "heel", "lost").time,
+                tips,
+                10.0 * tolerance,
+            );
+            certified(&what, &run);
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{PI, state};
 use lagrange_core::prelude::*;
-use lagrange_tests::{TOLERANCES, agree, certified, event, methods_at, run_by, words};
+use lagrange_tests::{Random, TOLERANCES, agree, certified, event, methods_at, run_by, words};
 
 /// A puck on a rough table that moves, pulled by a little more than friction holds.
 #[derive(Lagrangian, Clone, Debug)]
@@ -211,5 +211,107 @@ fn a_slip_begins_in_the_only_direction_that_another_friction_leaves() {
             agree(&what, x.hypot(y), acceleration, 1e-5);
             certified(&what, &run);
         }
+    }
+}
+
+/// A trestle that is pushed ever harder through the middle of its feet.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, turn, z, tilt[2]),
+    define(
+        place[k in 0..4] = [x + a[k]*cos(turn) - b[k]*sin(turn), y + a[k]*sin(turn) + b[k]*cos(turn)],
+    ),
+    kinetic = mass/2*(der(x)^2 + der(y)^2 + der(z)^2) + inertia/2*(der(turn)^2 + der(tilt[0])^2 + der(tilt[1])^2),
+    potential = mass * 9.81 * z,
+    contact(foot[k in 0..4]: z + b[k] * tilt[0] - a[k] * tilt[1] >= 0),
+    friction(grip[k in 0..4] on foot[k]: slip = (der(place[k][0]), der(place[k][1])), static = mu),
+    force(push: (rate*t*cos(heading), rate*t*sin(heading)) at (x, y)),
+)]
+struct Trestle {
+    mass: f64,
+    inertia: f64,
+    mu: f64,
+    a: [f64; 4],
+    b: [f64; 4],
+    rate: f64,
+    heading: f64,
+}
+
+/// The same on three feet, each of which carries a third.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, turn),
+    define(
+        place[k in 0..3] = [x + a[k]*cos(turn) - b[k]*sin(turn), y + a[k]*sin(turn) + b[k]*cos(turn)],
+    ),
+    kinetic = mass/2*(der(x)^2 + der(y)^2) + inertia/2*der(turn)^2,
+    friction(grip[k in 0..3]: slip = (der(place[k][0]), der(place[k][1])), normal = mass*9.81/3, static = mu),
+    force(push: (rate*t*cos(heading), rate*t*sin(heading)) at (x, y)),
+)]
+struct Tripod {
+    mass: f64,
+    inertia: f64,
+    mu: f64,
+    a: [f64; 3],
+    b: [f64; 3],
+    rate: f64,
+    heading: f64,
+}
+
+/// All feet begin to slip where the push is as much as friction, with no acceleration, and go straight on along it: r (t − t₀)³ / (6 m).
+fn goes_straight<S: System<Scalar = f64>>(
+    scene: &S,
+    coordinates: usize,
+    [mass, mu, rate, heading]: [f64; 4],
+) {
+    let slips = mu * mass * 9.81 / rate;
+    let way = |time: f64| rate * time.powi(3) / (6.0 * mass);
+    for (method, tolerance) in methods_at(["auto", "dop853", "radau5"], [1e-9, 1e-12]) {
+        let what = format!("{scene:?} by {method} at {tolerance:e}");
+        let start = state(&vec![0.0; coordinates], &vec![0.0; coordinates]);
+        let run = run_by(scene, (method, tolerance), start, slips + 1.0);
+        assert!(
+            words(&run).iter().all(|word| word.ends_with("slips")),
+            "{what}: {:?}",
+            words(&run)
+        );
+        assert!(run.work().steps < 500, "{what}: {:?}", run.work());
+        let end = &run.final_state().q;
+        let straight = [way(1.0) * heading.cos(), way(1.0) * heading.sin(), 0.0];
+        for (q, expected) in end.iter().zip(straight) {
+            agree(&what, *q, expected, 50.0 * tolerance);
+        }
+        certified(&what, &run);
+    }
+}
+
+#[test]
+fn feet_that_begin_to_slip_together_do_not_turn() {
+    let mut random = Random::new(77);
+    for _ in 0..8 {
+        let [mass, mu] = [random.between(1.0, 15.0), random.between(0.1, 0.9)];
+        let [long, wide] = [random.between(0.3, 2.0), random.between(0.3, 1.0)];
+        let (rate, heading) = (random.between(5.0, 40.0), random.between(-3.0, 3.0));
+        let inertia = random.between(0.3, 3.0);
+        let trestle = Trestle {
+            mass,
+            inertia,
+            mu,
+            a: [long, long, -long, -long],
+            b: [wide, -wide, wide, -wide],
+            rate,
+            heading,
+        };
+        goes_straight(&trestle, 6, [mass, mu, rate, heading]);
+        let tripod = Tripod {
+            mass,
+            inertia,
+            mu,
+            a: [long, -long / 2.0, -long / 2.0],
+            b: [0.0, wide, -wide],
+            rate,
+            heading,
+        };
+        goes_straight(&tripod, 3, [mass, mu, rate, heading]);
     }
 }

@@ -274,3 +274,68 @@ fn cones_of_friction_hold_as_much_of_any_mass() {
         all_agree(format!("{mass:e}"), &run.final_state().v, &expected, 1e-11);
     }
 }
+
+/// A puck of 1 kg that slides on a table, which ends at its rim, after an edge of its own.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, z),
+    kinetic = (der(x)^2 + der(y)^2 + der(z)^2) / 2,
+    potential = gravity * z,
+    contact(table: z >= 0, where x <= rim),
+    friction(rub on table: slip = (der(x), der(y)), static = mu),
+    start(pushed: der(x) = speed * cos(angle), der(y) = speed * sin(angle)),
+)]
+struct Puck {
+    gravity: f64,
+    rim: f64,
+    mu: f64,
+    speed: f64,
+    angle: f64,
+}
+
+/// Friction takes μ g from the speed, whatever it was in the run before, and the puck leaves the table at the time at which it is at the rim, also
+/// where the run before ended there.
+#[test]
+fn runs_do_not_know_how_the_one_before_them_ended() {
+    let scene = |[mu, speed]: [f64; 2]| Puck {
+        gravity: 9.81,
+        rim: 1.0,
+        mu,
+        speed,
+        angle: 0.4,
+    };
+    let leaves = Simulation::new(&scene([0.0, 1.0])).tolerance(1e-12);
+    let mut leaves = leaves.end_after(Puck::TABLE).runner();
+    let mut slides = Simulation::new(&scene([0.0, 1.0]))
+        .tolerance(1e-12)
+        .runner();
+    for numbers in [
+        [0.0, 3.0],
+        [0.2, 4.0],
+        [0.0, 2.5],
+        [0.1, 3.5],
+        [0.3, 5.0],
+        [0.0, 7.0],
+        [0.2, 3.0],
+    ] {
+        let [mu, speed] = numbers;
+        let what = format!("mu = {mu}, speed {speed}");
+        let scene = scene(numbers);
+        // s = v t − μ g t²/2.
+        let (brake, way) = (mu * scene.gravity, scene.rim / scene.angle.cos());
+        let at_rim = 2.0 * way / (speed + (speed * speed - 2.0 * brake * way).sqrt());
+        leaves.set_scene(&scene);
+        let run = leaves.run(scene.at(Puck::PUSHED), 0.0..5.0).expect(&what);
+        agree(&what, run.last_time(), at_rim, 1e-11);
+        slides.set_scene(&scene);
+        let half = 0.5 * at_rim;
+        let run = slides.run(scene.at(Puck::PUSHED), 0.0..half).expect(&what);
+        let way = speed * half - brake * half * half / 2.0;
+        agree(
+            &what,
+            run.final_state().q(Puck::X),
+            way * scene.angle.cos(),
+            1e-11,
+        );
+    }
+}

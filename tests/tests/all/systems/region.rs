@@ -2,7 +2,7 @@
 
 use lagrange_core::prelude::*;
 use lagrange_tests::{
-    METHODS, SINGLE_METHODS, TOLERANCES, agree, certified, methods_at, run, run_by,
+    METHODS, Random, SINGLE_METHODS, TOLERANCES, agree, certified, methods_at, run, run_by,
 };
 
 const G: f64 = 9.81;
@@ -552,6 +552,111 @@ fn what_reaches_a_surface_at_its_edge_passes_by_it() {
             assert_eq!(story(&motion), words(&[("ramp", "lost")]), "{what}");
             for (q, expected) in motion.final_state().q.iter().zip(end) {
                 agree(&what, *q, expected, 20.0 * tolerance.max(1e-11));
+            }
+            certified(&what, &motion);
+        }
+    }
+}
+
+/// A ball in a room: its floor ends at the wall. Both rub.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, phi),
+    kinetic = (der(x)^2 + der(y)^2) / 2 + radius^2/5 * der(phi)^2,
+    potential = gravity * y,
+    contact(floor: y >= 0, where x <= wide),
+    contact(wall: x <= wide, restitution = throws),
+    friction(rub on floor: slip = der(x) - radius*der(phi), static = mu),
+    friction(scrape on wall: slip = der(y) - radius*der(phi), static = rough),
+    start(rolls: x = wide - way, der(x) = speed, der(phi) = spin),
+)]
+struct Room {
+    gravity: f64,
+    radius: f64,
+    wide: f64,
+    way: f64,
+    throws: f64,
+    mu: f64,
+    rough: f64,
+    speed: f64,
+    spin: f64,
+}
+
+/// The same with a floor that goes on behind the wall.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, phi),
+    kinetic = (der(x)^2 + der(y)^2) / 2 + radius^2/5 * der(phi)^2,
+    potential = gravity * y,
+    contact(floor: y >= 0),
+    contact(wall: x <= wide, restitution = throws),
+    friction(rub on floor: slip = der(x) - radius*der(phi), static = mu),
+    friction(scrape on wall: slip = der(y) - radius*der(phi), static = rough),
+    start(rolls: x = wide - way, der(x) = speed, der(phi) = spin),
+)]
+struct Endless {
+    gravity: f64,
+    radius: f64,
+    wide: f64,
+    way: f64,
+    throws: f64,
+    mu: f64,
+    rough: f64,
+    speed: f64,
+    spin: f64,
+}
+
+/// The floor takes part in the impact on the wall, and carries what comes to rest at its edge.
+#[test]
+fn a_floor_that_ends_at_a_wall_is_as_good_as_an_endless_one() {
+    let mut random = Random::new(12);
+    for case in 0..60 {
+        let tenths = |x: f64| (10.0 * x).round() / 10.0;
+        let room = Room {
+            gravity: G,
+            radius: 0.1,
+            wide: tenths(random.between(-1.0, 2.0)),
+            way: tenths(random.between(0.3, 1.0)),
+            throws: [0.0, 0.5, 1.0][case % 3],
+            mu: [0.0, 0.1, 0.3][random.below(3)],
+            rough: [0.0, 0.3, 0.8][random.below(3)],
+            speed: tenths(random.between(1.0, 3.0)),
+            spin: [0.0, 20.0, -50.0][random.below(3)],
+        };
+        let Room {
+            gravity,
+            radius,
+            wide,
+            way,
+            throws,
+            mu,
+            rough,
+            speed,
+            spin,
+        } = room;
+        let endless = Endless {
+            gravity,
+            radius,
+            wide,
+            way,
+            throws,
+            mu,
+            rough,
+            speed,
+            spin,
+        };
+        for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-9, 1e-12]) {
+            let what = format!("{room:?} by {method} at {tolerance:e}");
+            let motion = run_by(&room, (method, tolerance), room.at(Room::ROLLS), 2.0);
+            let other = run_by(
+                &endless,
+                (method, tolerance),
+                endless.at(Endless::ROLLS),
+                2.0,
+            );
+            assert_eq!(story(&motion), story(&other), "{what}");
+            for (q, expected) in motion.final_state().q.iter().zip(&other.final_state().q) {
+                agree(&what, *q, *expected, 100.0 * tolerance);
             }
             certified(&what, &motion);
         }
