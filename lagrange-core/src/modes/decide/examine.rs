@@ -35,6 +35,9 @@ const CANCELLED: f64 = 1e-12;
 /// A force that takes away no more than this of the momentum in a second, or an acceleration of the speeds, may be what rounding of the state leaves of zero,
 const NOTHING: f64 = 1e-12;
 
+/// also if it was located, where what drives is no more than so many times that;
+const IDLE: f64 = 1e6;
+
 /// as shows in how it changes with the state, when that changes by so much, relative.
 const SHAKE: f64 = 1e-8;
 
@@ -348,9 +351,13 @@ impl<T: Scalar> Decider<T> {
             let Some(value) = leading(guard, order_known, composites, mode, dynamics) else {
                 return true;
             };
-            let noise = if concerns(guard, composites, facts) {
-                1e3 * here.blur()
-            } else if nothing(guard).is_some_and(|nothing| value.abs() <= nothing) {
+            let size = sizes.of(guard, dynamics);
+            let concerned = concerns(guard, composites, facts);
+            let in_doubt = nothing(guard).is_some_and(|nothing| {
+                let idle = !concerned || size <= IDLE * nothing;
+                idle && value.abs() <= nothing
+            });
+            if in_doubt {
                 doubtful.push(Doubt {
                     guard,
                     order_known,
@@ -358,17 +365,15 @@ impl<T: Scalar> Decider<T> {
                     size: 0.0,
                 });
                 return true;
-            } else {
-                1e-6
-            };
-            let size = sizes.of(guard, dynamics);
+            }
+            let noise = if concerned { 1e3 * here.blur() } else { 1e-6 };
             let incomparable = match guard {
                 Guard::NormalForceSign(_) => {
                     size <= value.abs() || value.abs() <= RESIDUES * facts.residue * size
                 }
                 _ => (exactly || all_vanish) && size <= RESIDUES * value.abs(),
             };
-            if incomparable && concerns(guard, composites, facts) {
+            if incomparable && concerned {
                 // All forces may vanish at this instant.
                 return true;
             }
