@@ -26,6 +26,9 @@ const KEPT: f64 = 1e-9;
 /// What is no larger than so many times a residue is one.
 const RESIDUES: f64 = 10.0;
 
+/// A force is all that there is of what makes it where that is no more than so many times as large: rounding tells them apart.
+const ALONE: f64 = 1.0 + 1e-9;
+
 /// A row that acts and whose rate grows beyond this share of what it is made of, over a step, does not follow from the others.
 const APART: f64 = 1e-6;
 
@@ -369,7 +372,7 @@ impl<T: Scalar> Decider<T> {
             let noise = if concerned { 1e3 * here.blur() } else { 1e-6 };
             let incomparable = match guard {
                 Guard::NormalForceSign(_) => {
-                    size <= value.abs() || value.abs() <= RESIDUES * facts.residue * size
+                    size <= ALONE * value.abs() || value.abs() <= RESIDUES * facts.residue * size
                 }
                 _ => (exactly || all_vanish) && size <= RESIDUES * value.abs(),
             };
