@@ -126,6 +126,14 @@ impl Mode {
         *named(&self.frictions, friction.0, "friction") == FrictionMode::Stick
     }
 
+    /// Opens all contacts, and ends all frictions; whether any contact was closed.
+    pub(crate) fn release_contacts(&mut self) -> bool {
+        let closed = self.contacts.contains(&true);
+        self.contacts.fill(false);
+        self.frictions.fill(FrictionMode::Inactive);
+        closed
+    }
+
     /// Whether a friction slips.
     #[track_caller]
     pub fn slips(&self, friction: FrictionId) -> bool {

@@ -98,10 +98,8 @@ impl<T: Scalar> Run<T> {
         self.hold_guards();
         if self.evaluate().is_ok() {
             self.release_dead_centres();
-        } else if self.now.mode.release_sticking() {
-            // What is at rest for an instant, as a slider at its dead centre, may be held there by nothing.
-            self.dynamics.set_mode(&self.now.mode);
-            self.hold_guards();
+        } else {
+            self.release_start();
         }
         self.recorder.trajectory.modes.clear();
         self.recorder.trajectory.modes.push(&self.now.mode);
@@ -110,6 +108,20 @@ impl<T: Scalar> Run<T> {
             self.now.below[c] = true;
         }
         Ok(())
+    }
+
+    /// Lets go of what cannot be held together at the start: what is at rest for an instant, as a slider at its dead centre, and surfaces that touch where
+    /// they bend otherwise, as a floor does the edge that it ends in. Which of them the motion follows is decided then.
+    fn release_start(&mut self) {
+        for release in [Mode::release_sticking, Mode::release_contacts] {
+            if release(&mut self.now.mode) {
+                self.dynamics.set_mode(&self.now.mode);
+                self.hold_guards();
+            }
+            if self.evaluate().is_ok() {
+                break;
+            }
+        }
     }
 
     /// Ends a run, whatever came of it.
