@@ -305,6 +305,12 @@ impl<T: Scalar> RedundantForces<T> {
         (!told || !composite.is_of_limits()).then_some(composite)
     }
 
+    /// Whether bounds keep forces from being those of least norm.
+    pub fn are_bent(&self) -> bool {
+        let forces = &self.bounds.forces;
+        self.has_open() && forces.least(&forces.values) < -ROUNDING
+    }
+
     /// The forces of all rows at the last value of `dynamics`, and which of them are undetermined (nothing where all are
     /// determined).
     pub fn report(&mut self, dynamics: &mut Dynamics<T>, undetermined: &mut Vec<bool>) -> Vec<T> {
