@@ -11,12 +11,20 @@ use crate::effects::Item;
 use crate::events::{Direction, find_root};
 use crate::integrate::{polynomial_derivative as slope, polynomial_value as value};
 use crate::mode::Mode;
+use crate::modes::facts::SwitchFacts;
 use crate::modes::guard::Guard;
 use crate::system::{Contact, ValueRef};
+use crate::trajectory::State;
 use core::ops::ControlFlow::Break;
 
 /// Gaps that other gaps hold at zero are off by no more than this, relative to what makes them.
 const ROUNDING: f64 = 1e-12;
+
+/// What closes by no more than this share of its terms over a step does not hit where a surface ends, but touches.
+const HITS: f64 = 1e-6;
+
+/// Whether the motion goes out at an edge is seen over this share of its extent, and where it goes out by no more than this share of that again it does not.
+const SOON: f64 = 1e-6;
 
 /// At so many parts of a step it is seen whether it stays at an edge.
 const PLACES: usize = 8;
@@ -124,6 +132,44 @@ impl<T: Scalar> Run<T> {
         self.locator.passing = passing;
     }
 
+    /// Ends the contacts whose regions the motion leaves at this instant: those at whose edge it is, unless an impact there has thrown it back or stopped it.
+    pub(super) fn leave_regions(&mut self, hit: bool, facts: &mut SwitchFacts) {
+        let fallen = core::mem::take(&mut self.locator.fallen);
+        for guard in &fallen {
+            if let Guard::Region(c) = *guard
+                && self.now.mode.contacts[c]
+                && (!hit || self.goes_out(c))
+            {
+                facts.touching[c] = false;
+            }
+        }
+        self.locator.fallen = fallen;
+    }
+
+    /// Whether the present velocities lead out of the region of contact `c`, from its edge.
+    fn goes_out(&mut self, c: usize) -> bool {
+        let Some(place) = self.description().contacts[c].region else {
+            return false;
+        };
+        let largest = |x: &[T]| x.iter().fold(0.0_f64, |size, x| size.max(x.value().abs()));
+        let State { q, v, .. } = &self.now.state;
+        let (extent, speed) = (1.0 + largest(q), largest(v).max(1.0));
+        let soon = T::from_f64(SOON * extent / speed);
+        let beside = &mut self.stepper.scratch;
+        beside.clone_from(&self.now.state);
+        for (q, &v) in beside.q.iter_mut().zip(v) {
+            *q += soon * v;
+        }
+        self.dynamics.set_extra_needs(&self.switcher.status.needs);
+        let mut at = |t, state: &State<T>| {
+            self.dynamics.tape(t, &state.q, &state.v);
+            self.dynamics.motion(place).value()
+        };
+        let changes = at(self.now.t + soon, beside) - at(self.now.t, &self.now.state);
+        self.now.valued = false;
+        changes < -SOON * SOON * extent
+    }
+
     /// What is hit where a surface ends, to rounding, is hit there: the floor of a room ends at its walls.
     pub(super) fn hit_at_edge(&mut self, end: f64) {
         let closed = |guard: &Guard| {
@@ -136,10 +182,11 @@ impl<T: Scalar> Run<T> {
         let polynomials = &self.locator.polynomials;
         for (guard, curve) in polynomials.of_mode() {
             let gap = value(curve, end).abs();
+            let size: f64 = curve.iter().map(|c| c.abs()).sum();
             if matches!(guard, Guard::Gap(_))
                 && !fallen.contains(&guard)
                 && !self.is_below(guard)
-                && slope(curve, end) < 0.0
+                && slope(curve, end) < -HITS * size
                 && gap <= polynomials.rounding(gap, guard, &self.dynamics)
                 && self.within_region(guard, end)
             {

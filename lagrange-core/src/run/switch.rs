@@ -124,15 +124,11 @@ impl<T: Scalar> Run<T> {
         for (resting, friction) in facts.resting.iter_mut().zip(&self.now.mode.frictions) {
             *resting = friction.rests();
         }
-        // What an impact at its edge throws back does not leave a surface, and takes part in that.
-        let mut fallen = self.locator.fallen.iter();
-        let is_hit = fallen.any(|guard| matches!(guard, Guard::Gap(_)));
         for &guard in &self.locator.fallen {
             match guard {
                 Guard::Gap(c) => (facts.touching[c], facts.arriving[c]) = (true, true),
                 Guard::Slip(f) => facts.resting[f] = true,
                 Guard::Branch(b) => facts.balanced[b] = true,
-                Guard::Region(c) => facts.touching[c] &= is_hit,
                 _ => {}
             }
         }
@@ -290,6 +286,9 @@ impl<T: Scalar> Run<T> {
         self.take_sides_that_jumped(facts);
         let arrives = facts.arriving.contains(&true);
         let hit = arrives && self.hit(facts)?;
+        if self.is_at_edge() {
+            self.leave_regions(hit, facts);
+        }
         if hit {
             self.rest_where_impact_leaves_nothing(facts)?;
             self.take_sides_after_impact(facts);
