@@ -2,7 +2,7 @@
 
 use lagrange_core::prelude::*;
 use lagrange_tests::{
-    METHODS, Random, SINGLE_METHODS, TOLERANCES, agree, certified, methods_at, run, run_by,
+    METHODS, Random, SINGLE_METHODS, TOLERANCES, agree, certified, event, methods_at, run, run_by,
 };
 
 const G: f64 = 9.81;
@@ -659,6 +659,56 @@ fn a_floor_that_ends_at_a_wall_is_as_good_as_an_endless_one() {
                 agree(&what, *q, *expected, 100.0 * tolerance);
             }
             certified(&what, &motion);
+        }
+    }
+}
+
+/// The brow of a hill: a floor that ends where a round edge of the same height begins.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = gravity * y,
+    contact(flat: y >= radius, where x <= 0),
+    contact(edge: sqrt(x^2 + y^2) >= radius),
+    start(there: y = radius, der(x) = speed),
+)]
+struct Brow {
+    gravity: f64,
+    radius: f64,
+    speed: f64,
+}
+
+/// A start at its very end, where both surfaces touch and bend otherwise: back along the floor, or over the edge, which is left where 3 cos θ = 2 + v²/(g r), or
+/// at once.
+#[test]
+fn a_start_between_two_surfaces_follows_one_of_them() {
+    for radius in [0.3, 1.0, 1.7] {
+        for part in [-0.8, -0.1, 0.2, 0.5, 0.9, 1.3] {
+            let brow = Brow {
+                gravity: G,
+                radius,
+                speed: part * (G * radius).sqrt(),
+            };
+            for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-9]) {
+                let what = format!("{brow:?} by {method} at {tolerance:e}");
+                let until = 3.0 * (radius / G).sqrt();
+                let motion = run_by(&brow, (method, tolerance), brow.at(Brow::THERE), until);
+                let end = motion.final_state();
+                if part < 0.0 {
+                    agree(&what, end.q[0], brow.speed * until, 10.0 * tolerance);
+                    agree(&what, end.q[1], radius, 10.0 * tolerance);
+                } else if part > 1.0 {
+                    agree(&what, end.q[0], brow.speed * until, 10.0 * tolerance);
+                    let falls = radius - G * until * until / 2.0;
+                    agree(&what, end.q[1], falls, 10.0 * tolerance);
+                } else {
+                    let left = event(&motion, "edge", "lost");
+                    let height = radius * (2.0 + part * part) / 3.0;
+                    agree(&what, left.state.q[1], height, 100.0 * tolerance);
+                }
+                certified(&what, &motion);
+            }
         }
     }
 }
