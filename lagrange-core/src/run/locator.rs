@@ -27,6 +27,8 @@ pub(super) struct Locator<T> {
     pub(super) zeros: Vec<(Guard, usize)>,
     /// Contacts whose region the motion enters at this instant, on the surface.
     pub(super) entered: Vec<usize>,
+    /// Per contact: another one that keeps the motion at the edge of its region as long as it is closed.
+    pub(super) edges_held: Vec<Option<usize>>,
     /// Whether a gap began at zero with the step that has just ended.
     pub(super) opened: bool,
     /// Whether a gap stays zero although its contact is open, because others hold it there.
@@ -69,6 +71,7 @@ impl<T: Scalar> Locator<T> {
             polynomials: GuardPolynomials::new(d, &settings.effects),
             zeros: Vec::new(),
             entered: Vec::new(),
+            edges_held: vec![None; d.contacts.len()],
             opened: false,
             lies: false,
             at_limit: Vec::new(),
@@ -94,6 +97,7 @@ impl<T: Scalar> Locator<T> {
             polynomials,
             zeros,
             entered,
+            edges_held,
             opened,
             lies,
             at_limit,
@@ -115,6 +119,7 @@ impl<T: Scalar> Locator<T> {
         polynomials.held.clear();
         zeros.clear();
         entered.clear();
+        edges_held.fill(None);
         (*opened, *lies, *blur) = (false, false, 0.0);
         at_limit.clear();
         falls.clear();
@@ -207,7 +212,7 @@ impl<T: Scalar> Run<T> {
 
     /// Where a guard of the mode falls through zero: (part of the step, half width of the enclosure).
     fn fall(&self, guard: Guard, curve: &[f64]) -> Option<(f64, f64)> {
-        if self.stays_at_edge(guard, curve) {
+        if self.is_held_at(guard) || self.stays_at_edge(guard, curve) {
             return None;
         }
         if is_edge_in_flight(guard, &self.now.mode) {

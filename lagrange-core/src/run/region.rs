@@ -20,6 +20,12 @@ use core::ops::ControlFlow::Break;
 /// Gaps that other gaps hold at zero are off by no more than this, relative to what makes them.
 const ROUNDING: f64 = 1e-12;
 
+/// Whether a region and a gap change in proportion is seen in so many ways in which the state changes,
+const WAYS: usize = 3;
+
+/// to this share.
+const ALIKE: f64 = 1e-3;
+
 /// What closes by no more than this share of its terms over a step does not hit where a surface ends, but touches.
 const HITS: f64 = 1e-6;
 
@@ -44,6 +50,60 @@ impl<T: Scalar> Run<T> {
     pub(super) fn is_in_region(&self, c: usize) -> bool {
         let region = self.description().contacts[c].region;
         region.is_none_or(|place| self.dynamics.motion(place).value() > 0.0)
+            || self.is_held_at(Guard::Region(c))
+    }
+
+    /// Whether a guard is the edge of a region at which a closed contact keeps the motion: it is in the region.
+    pub(super) fn is_held_at(&self, guard: Guard) -> bool {
+        let Guard::Region(c) = guard else {
+            return false;
+        };
+        self.locator.edges_held[c].is_some_and(|by| self.now.mode.contacts[by])
+    }
+
+    /// Notes at which edges contacts that touch keep the motion: a floor that ends at a wall is there along that wall, however it leans or moves.
+    pub(super) fn note_edges_held(&mut self, facts: &SwitchFacts) {
+        let d = self.description();
+        let limited = |contact: &Contact| contact.region.is_some();
+        if !facts.touching.contains(&true) || !d.contacts.iter().any(limited) {
+            return;
+        }
+        for (c, contact) in d.contacts.iter().enumerate() {
+            let Some(region) = contact.region else {
+                continue;
+            };
+            self.tape_of_all_rows();
+            self.now.valued = false;
+            let is_at_edge = self.dynamics.motion(region).value().abs() <= self.touching(c);
+            let mut others = (0..d.contacts.len()).filter(|&k| k != c && facts.touching[k]);
+            self.locator.edges_held[c] = match is_at_edge {
+                true => others.find(|&by| self.vanish_together(region, by)),
+                false => None,
+            };
+        }
+    }
+
+    /// Whether a region and the gap of another contact, which vanish here, vanish together: one changes in proportion to the other, whichever way the state
+    /// and the time change.
+    fn vanish_together(&mut self, region: ValueRef, by: usize) -> bool {
+        let mut first = None;
+        (0..WAYS).all(|way| {
+            let [before, after] = [0.0, SOON].map(|part| {
+                let beside = &mut self.stepper.scratch;
+                beside.clone_from(&self.now.state);
+                let along = |j: usize| T::from_f64(part * ((j + WAYS * way) as f64).cos());
+                for (j, q) in beside.q.iter_mut().enumerate() {
+                    *q += along(j + 1);
+                }
+                self.dynamics.set_extra_needs(&self.switcher.status.needs);
+                self.dynamics
+                    .tape(self.now.t + along(0), &beside.q, &beside.v);
+                [self.dynamics.motion(region).value(), self.gap(by)]
+            });
+            let share = (after[0] - before[0]) / (after[1] - before[1]);
+            let known = *first.get_or_insert(share);
+            (share - known).abs() <= ALIKE * known.abs()
+        })
     }
 
     /// Whether a guard's contact exists at part `s` of the step and just after it.
@@ -55,6 +115,9 @@ impl<T: Scalar> Run<T> {
         let Some(curve) = self.locator.polynomials.of(edge) else {
             return true;
         };
+        if self.is_held_at(edge) {
+            return true;
+        }
         // Just after the edge has been located, its first coefficient is zero.
         let is_in = |curve| value(curve, s) >= 0.0;
         !self.leaves(c, curve, s) && self.judged(edge, curve).is_none_or(is_in)
@@ -124,6 +187,7 @@ impl<T: Scalar> Run<T> {
             let passes = gap.abs() <= self.touching(c)
                 && !self.locator.fallen.contains(&Guard::Region(c))
                 && slope(curve, end) < 0.0
+                && !self.is_held_at(Guard::Region(c))
                 && edge.is_some_and(|edge| self.leaves(c, edge, end));
             passing.extend(passes.then_some(c));
             below[c] = passes || gap < 0.0 && (below[c] || passed);

@@ -301,6 +301,7 @@ impl<T: Scalar> Run<T> {
         if near_surfaces || facts.located.iter().any(of_surfaces) {
             self.take_what_touches(facts);
         }
+        self.note_edges_held(facts);
         if !hit {
             self.rest_where_slip_vanishes(facts)?;
             self.rest_with_what_comes_to_rest(facts)?;

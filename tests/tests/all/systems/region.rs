@@ -712,3 +712,51 @@ fn a_start_between_two_surfaces_follows_one_of_them() {
         }
     }
 }
+
+/// A mass that is pushed against a wall, which leans and moves away, and slides down it onto a floor that ends there.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = gravity * y - push * x,
+    define(end = lean * y + drift * t),
+    contact(floor: y >= 0, where x <= end),
+    contact(wall: x <= end),
+    start(there: x = lean * high, y = high, der(x) = drift),
+)]
+struct Leaning {
+    gravity: f64,
+    push: f64,
+    lean: f64,
+    drift: f64,
+    high: f64,
+}
+
+/// What rounding, or the error of a step, makes of its place at the wall does not decide whether there is a floor: it lands after √(2 h (1 + k²)/(g − F k)), and
+/// comes to rest in the corner.
+#[test]
+fn a_floor_is_there_along_the_wall_that_it_ends_at() {
+    for (lean, drift) in [(0.5, 0.0), (0.2, 0.0), (0.7, 0.3), (0.0, 0.4), (0.3, -0.2)] {
+        for high in [0.3, 1.0, 1.7] {
+            let scene = Leaning {
+                gravity: G,
+                push: 6.0,
+                lean,
+                drift,
+                high,
+            };
+            let slope = 1.0 + lean * lean;
+            let lands = (2.0 * high * slope / (G - scene.push * lean)).sqrt();
+            for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-9, 1e-12]) {
+                let what = format!("{scene:?} by {method} at {tolerance:e}");
+                let run = run_by(&scene, (method, tolerance), scene.at(Leaning::THERE), 5.0);
+                let landed = event(&run, "floor", "impact").time;
+                agree(&what, landed, lands, 100.0 * tolerance);
+                let end = run.final_state();
+                agree(&what, end.q[0], 5.0 * drift, 100.0 * tolerance);
+                agree(&what, end.q[1], 0.0, 10.0 * tolerance);
+                certified(&what, &run);
+            }
+        }
+    }
+}
