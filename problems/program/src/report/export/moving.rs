@@ -3,7 +3,7 @@
 //! Of each picture a PNG or GIF holds the rectangle alone in which it differs from the one before.
 
 use super::patch::Patch;
-use super::raster::Raster;
+use super::raster::{MOST, Raster};
 use super::{Moving, Pace, gif};
 use rayon::prelude::*;
 use std::io::{self, Write};
@@ -12,7 +12,7 @@ use std::process::{Command, Stdio};
 
 /// Seconds that the last picture stays.
 const PAUSE: f64 = 1.0;
-/// Pictures that are drawn at the same time.
+/// Pictures that are drawn at the same time, at most.
 const BATCH: usize = 32;
 
 /// Writes a file of pictures, which may be asked for more than once.
@@ -43,10 +43,16 @@ fn rasters(
     mut pictures: impl Iterator<Item = String>,
     scale: f32,
 ) -> impl Iterator<Item = io::Result<Raster>> {
+    // The first one tells how many fit into memory.
+    let mut fit = 1;
     let batches = core::iter::from_fn(move || {
-        let batch: Vec<String> = pictures.by_ref().take(BATCH).collect();
+        let batch: Vec<String> = pictures.by_ref().take(fit).collect();
         let drawn = batch.into_par_iter().map(|svg| Raster::draw(&svg, scale));
-        Some(drawn.collect::<Vec<_>>()).filter(|batch| !batch.is_empty())
+        let drawn: Vec<io::Result<Raster>> = drawn.collect();
+        if let Some(Ok(raster)) = drawn.first() {
+            fit = (MOST / (raster.width() * raster.height())).clamp(1, BATCH);
+        }
+        Some(drawn).filter(|batch| !batch.is_empty())
     });
     batches.flatten()
 }

@@ -5,6 +5,9 @@ use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 use std::io::{self, Write};
 
+/// Pixels that are drawn at the same time at most, which take 400 MB: what no memory holds would end the program.
+pub(super) const MOST: usize = 100_000_000;
+
 /// Pixels from left to right and downward: red, green, blue and opacity, which is full.
 pub(super) struct Raster {
     map: Pixmap,
@@ -24,7 +27,8 @@ impl Raster {
         let tree = tree(svg)?;
         let pixels = |length: f32| (scale * length).round().max(1.0) as u32;
         let (width, height) = (pixels(tree.size().width()), pixels(tree.size().height()));
-        let map = Pixmap::new(width, height);
+        let few = (width as usize).saturating_mul(height as usize) <= MOST;
+        let map = few.then(|| Pixmap::new(width, height)).flatten();
         let mut map =
             map.ok_or_else(|| io::Error::other(format!("{width} × {height} pixels are too many")))?;
         map.fill(Color::WHITE);

@@ -4,7 +4,7 @@
 
 use super::Column;
 use super::arrow::is_false;
-use super::frame::{Newtons, largest};
+use super::frame::{self, Newtons, largest};
 use super::impulse::{self, Rows};
 use crate::drawing::Arrow;
 use crate::film::Film;
@@ -79,24 +79,29 @@ fn stage<'a>(film: &Film, alike: impl Iterator<Item = &'a Film> + Clone) -> Stag
             }
         }
     }
-    let size = around.size();
-    let mut scale = |kind: Kind| {
-        let thrusts: Vec<(Vector, Vector)> = alike
-            .clone()
-            .flat_map(|film| all_thrusts(film, kind))
-            .collect();
+    let thrusts = |kind: Kind| -> Vec<(Vector, Vector)> {
+        let thrusts = alike.clone().flat_map(|film| all_thrusts(film, kind));
+        thrusts.filter(|(_, force)| force.norm() > 0.0).collect()
+    };
+    let (forces, impulses) = (thrusts(Kind::Force), thrusts(Kind::Impulse));
+    for (at, _) in forces.iter().chain(&impulses) {
+        around.hold(*at, Vector::zeros());
+    }
+    let size = around.grown();
+    let mut scale = |kind: Kind, thrusts: &[(Vector, Vector)]| {
         let sizes = thrusts.iter().map(|(_, force)| force.norm());
         let newtons = match kind {
             Kind::Force => Newtons::new(sizes, size),
             Kind::Impulse => Newtons::to_scale(sizes.fold(0.0, f64::max), size),
         };
-        for (at, force) in &thrusts {
+        for (at, force) in thrusts {
             let end = at + kind.far() * Vector::from(newtons.arrow((*force).into()));
             around.hold(end, Vector::zeros());
         }
         newtons
     };
-    let (newtons, blows) = (scale(Kind::Force), scale(Kind::Impulse));
+    let newtons = scale(Kind::Force, &forces);
+    let blows = scale(Kind::Impulse, &impulses);
     let mut arrows = self::arrows(film, Kind::Force, &newtons, size);
     arrows.extend(self::arrows(film, Kind::Impulse, &blows, size));
     Stage {
@@ -105,8 +110,8 @@ fn stage<'a>(film: &Film, alike: impl Iterator<Item = &'a Film> + Clone) -> Stag
             .iter()
             .any(|arrow| !arrow.impulse && largest(&arrow.size) > newtons.most()),
         arrows,
-        low: around.low.map(significant),
-        high: around.high.map(significant),
+        low: around.low.map(|x| near(x, size)),
+        high: around.high.map(|x| near(x, size)),
         reach: significant(newtons.reach),
     }
 }
@@ -130,14 +135,23 @@ impl Box3 {
         }
     }
 
-    /// Its longest edge.
-    fn size(&self) -> f64 {
-        let edges = self
-            .high
-            .iter()
-            .zip(&self.low)
-            .map(|(high, low)| high - low);
-        edges.filter(|edge| edge.is_finite()).fold(1e-9, f64::max)
+    /// The size of a picture of what is in it, which is its longest edge but where that is next to nothing: it grows to that size then.
+    fn grown(&mut self) -> f64 {
+        // A ground alone is nowhere.
+        if self.low[0] > self.high[0] {
+            self.hold(Vector::zeros(), Vector::zeros());
+        }
+        let (low, high) = (Vector::from(self.low), Vector::from(self.high));
+        let finite = |lengths: Vector| {
+            let lengths = lengths.iter().copied();
+            lengths.filter(|x| x.is_finite()).fold(0.0, f64::max)
+        };
+        let apart = finite(high - low);
+        let size = frame::size(apart, finite(low.abs()).max(finite(high.abs())));
+        if size > apart {
+            self.hold(0.5 * (low + high), Vector::repeat(0.5 * size));
+        }
+        size
     }
 }
 
@@ -317,5 +331,36 @@ mod tests {
                 .iter()
                 .all(|c| matches!(c, Column::Constant(_)))
         );
+    }
+
+    /// A ball of no size in space: pushed at a height above it with a force, and moved at a speed.
+    #[test]
+    fn what_rests_in_space_has_a_size() {
+        for (height, push, speed, size) in [
+            (0.5, 1.0, 0.0, 0.5),
+            (40.0, 1.0, 1e-6, 40.0),
+            (40.0, 0.0, 1e-6, 2e-6),
+            (40.0, 0.0, 0.0, 1.0),
+        ] {
+            let declared = format!(
+                "coordinates(x, y, z), kinetic = (der(x)^2 + der(y)^2 + der(z)^2)/2,
+                 force(push: (0, {push:?}, 0) at (x, y, z + {height:?})), constraint(guide: y == 0),
+                 start(rest: z = 1/2, der(x) = {speed:?}), until = 2,"
+            );
+            let scene = crate::file::scene("seen.lagrange", &declared).expect("a declaration");
+            let request = crate::request::Request {
+                samples: 20,
+                ..Default::default()
+            };
+            let film = scene.film(&request).expect("a film");
+            let stage = stages(&[&film]).remove(0).expect("a stage");
+            let edges = [0, 1, 2].map(|k| stage.high[k] - stage.low[k]);
+            let longest = edges.into_iter().fold(0.0, f64::max);
+            assert!((longest - size).abs() < 1e-4 * size, "{stage:?}");
+            let view = super::super::view::View::of(&stage);
+            let middle = Vector::from_fn(|k, _| 0.5 * (stage.low[k] + stage.high[k]));
+            let [x, y] = view.place(middle);
+            assert!((0.0..1000.0).contains(&x) && (0.0..view.height).contains(&y));
+        }
     }
 }
