@@ -259,19 +259,35 @@ fn the_picture_has_every_method() {
     ] {
         assert!(drawn.contains(word), "{word} is missing");
     }
-    // Nothing but errors above 1: nothing to draw.
-    let useless = lagrange(&[
-        "accuracy",
-        "mass-on-wheel",
-        "--methods",
-        "gauss6:3",
-        "--repeat",
-        "1",
-        "--plot",
-        picture,
-    ]);
-    assert_eq!(useless.status.code(), Some(1));
-    assert!(text(&useless.stderr).contains("nothing to plot"));
+}
+
+#[test]
+fn without_a_result_of_any_method_the_cause_is_told() {
+    for arguments in [&["--plot", "useless.svg"][..], &["--target", "1e-6"], &[]] {
+        let wheel = ["accuracy", "mass-on-wheel", "--methods", "gauss6:3,rk4:1e9"];
+        let output = lagrange(&[&wheel[..], arguments].concat());
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert_eq!(said.lines().count(), 1, "{said}");
+        let cause = "no method has a result; gauss6 with steps of 3 s: t =";
+        assert!(said.contains(cause), "{said}");
+        assert!(!text(&output.stdout).contains("0 rounds"));
+    }
+    // A floor that is hit at the start.
+    refuses(
+        &[
+            "accuracy",
+            "bouncing-ball",
+            "--start",
+            "y=0",
+            "--start",
+            "der(y)=-1",
+            "--end-after",
+            "floor impact",
+        ],
+        1,
+        "the run ends at the instant at which it begins",
+    );
 }
 
 #[test]

@@ -98,6 +98,10 @@ pub(super) fn reference(
     closed_form: Option<ClosedForm>,
 ) -> Result<(Reference, f64), Refusal> {
     let (setting, tightest) = tightest(motion)?;
+    if tightest.last_time() == tightest.first_time() {
+        let reason = "the run ends at the instant at which it begins".to_owned();
+        return Err(refusal(setting, reason));
+    }
     let steps = tightest.work().steps.max(1);
     let scale = RADIUS_PER_STEP * (tightest.last_time() - tightest.first_time()) / steps as f64;
     let summary = Summary::of(&tightest);

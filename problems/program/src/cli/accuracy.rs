@@ -91,18 +91,16 @@ impl Measure {
         let target = self.target.map(|target| (target, run.as_str()));
         self.output
             .write(|out| write(&accuracy, format, target, out))?;
-        if let Some(path) = &self.plot {
-            let picture = plot::svg(&accuracy).map_err(Trouble::failed)?;
-            draw(path, &picture)?;
-        }
+        let plotted = self.plot.as_deref().map_or(Ok(()), |path| {
+            draw(path, &plot::svg(&accuracy).map_err(Trouble::failed)?)
+        });
         if progress.is_stopped() {
             let reason = "interrupted; what was measured until then is kept";
             return Err(Trouble::Interrupted(reason.to_owned()));
         }
-        match self.target {
-            Some(target) => answer::reached(&accuracy, target).map_err(Trouble::failed),
-            None => Ok(()),
-        }
+        // Why no method has a result is also why there is nothing to plot.
+        answer::verdict(&accuracy, self.target).map_err(Trouble::failed)?;
+        plotted
     }
 }
 

@@ -1,7 +1,7 @@
 //! Accuracy → which method and tolerance reach an error in the shortest time.
 
 use super::{duration, reference};
-use crate::accuracy::{Accuracy, Setting};
+use crate::accuracy::{Accuracy, Row, Setting};
 use std::io::{self, Write};
 
 /// Writes the answer, how much longer the other methods take, and `run`, the command that was measured, with what is the fastest; nothing if
@@ -43,14 +43,21 @@ fn options(setting: Setting) -> String {
     }
 }
 
-/// Whether something reaches `target`.
+/// Whether some method has a result, and one that reaches `target` if there is one.
 ///
 /// # Errors
-/// What to try, if nothing does.
-pub fn reached(accuracy: &Accuracy, target: f64) -> Result<(), String> {
-    if accuracy.fastest(target).is_some() {
+/// Why there is no result, or what to try if nothing reaches it.
+pub fn verdict(accuracy: &Accuracy, target: Option<f64>) -> Result<(), String> {
+    let Some((setting, best)) = accuracy.most_exact() else {
+        let failed = |row: &Row| row.result.clone().err().map(|why| (row.setting, why));
+        return match accuracy.rows.iter().find_map(failed) {
+            Some((setting, why)) => Err(format!("no method has a result; {setting}: {why}")),
+            None => Err("no method has a result".to_owned()),
+        };
+    };
+    let Some(target) = target.filter(|target| accuracy.fastest(*target).is_none()) else {
         return Ok(());
-    }
+    };
     let floor = accuracy.reference.floor;
     if target < floor {
         return Err(format!(
@@ -58,11 +65,8 @@ pub fn reached(accuracy: &Accuracy, target: f64) -> Result<(), String> {
             accuracy.reference.by, accuracy.reference.checked_by, accuracy.reference.difference
         ));
     }
-    Err(match accuracy.most_exact() {
-        None => "no method gets to the end; the table says why".to_owned(),
-        Some((setting, measured)) => format!(
-            "nothing reaches {target:e}; the best is {setting} with {:.1e}: allow more methods or smaller tolerances",
-            accuracy.resolved(measured)
-        ),
-    })
+    Err(format!(
+        "nothing reaches {target:e}; the best is {setting} with {:.1e}: allow more methods or smaller tolerances",
+        accuracy.resolved(best)
+    ))
 }

@@ -40,18 +40,24 @@ pub fn write(accuracy: &Accuracy, mut out: impl Write) -> io::Result<()> {
             column.set_cell_alignment(CellAlignment::Right);
         }
     }
-    writeln!(out, "{}\n", table.trim_fmt())?;
+    let rounds = rounds(accuracy);
+    // Without results there are only the reasons for that.
+    if rounds > 0 {
+        writeln!(out, "{}\n", table.trim_fmt())?;
+    }
     for row in &accuracy.rows {
         if let Err(reason) = &row.result {
             writeln!(out, "{}: {reason}", row.setting)?;
         }
     }
     writeln!(out, "{}", reference(accuracy))?;
-    writeln!(
-        out,
-        "Time: the best of up to {} rounds, nothing recorded; over that of the fastest line that is at least as exact.",
-        rounds(accuracy)
-    )
+    if rounds > 0 {
+        writeln!(
+            out,
+            "Time: the best of up to {rounds} rounds, nothing recorded; over that of the fastest line that is at least as exact."
+        )?;
+    }
+    Ok(())
 }
 
 fn numbers(accuracy: &Accuracy, measured: &Measured) -> Vec<String> {
