@@ -137,6 +137,10 @@ fn frames_are_numbered_and_show_their_instants() {
 fn what_makes_no_sense_is_refused() {
     let long = ["report", "kepler", "--frames", "frames", "--speed", "0.01"];
     refuses(&long, 2, "choose a lower --fps");
+    let longest = [
+        "report", "kepler", "--output", "a.svg", "--until", "1", "--speed", "1e-300",
+    ];
+    refuses(&longest, 2, "that makes 2.5e301 pictures, more than 10000;");
     let both = [
         "report", "kepler", "--frames", "frames", "--output", "a.svg",
     ];

@@ -9,6 +9,8 @@ mod layout;
 mod still;
 
 use crate::film::Film;
+use crate::report::picture::nice;
+use lagrange_core::error::Shortest;
 use std::fmt;
 
 pub use animated::animated;
@@ -46,8 +48,8 @@ impl fmt::Display for TooMany {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "that makes {:.0} pictures, more than {MOST}; choose a lower --fps, a higher --speed, or end earlier with --until",
-            self.frames
+            "that makes {} pictures, more than {MOST}; choose a lower --fps, a higher --speed, or end earlier with --until",
+            Shortest(self.frames)
         )
     }
 }
@@ -89,9 +91,13 @@ pub(crate) fn span<'a>(films: impl Iterator<Item = &'a Film>) -> (f64, f64) {
 /// Speeds that a page offers.
 pub(crate) const SPEEDS: [f64; 9] = [0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0];
 
-/// The highest speed that takes at least four seconds to show so many; above 1 only where it would take more than forty.
+/// The highest speed up to 1 at which so many seconds are seen for at least four; of more than forty, the highest round one at which they
+/// are seen for at least forty.
 pub(crate) fn usual_speed(duration: f64) -> f64 {
-    let fits = |speed: &&f64| **speed <= (duration / 40.0).max(1.0) && duration / **speed >= 4.0;
+    if duration > 40.0 {
+        return nice(duration / 40.0);
+    }
+    let fits = |speed: &&f64| **speed <= 1.0 && duration / **speed >= 4.0;
     let speeds = SPEEDS.iter();
     speeds.rev().find(fits).copied().unwrap_or(SPEEDS[0])
 }
@@ -102,7 +108,7 @@ mod tests {
 
     #[test]
     fn speeds_suit_their_films() {
-        let speeds = [0.01, 1.0, 3.0, 20.0, 100.0, 600.0].map(usual_speed);
-        assert_eq!(speeds, [0.05, 0.25, 0.5, 1.0, 2.0, 10.0]);
+        let speeds = [0.01, 1.0, 3.0, 20.0, 40.0, 100.0, 600.0, 1e5, 1e9].map(usual_speed);
+        assert_eq!(speeds, [0.05, 0.25, 0.5, 1.0, 1.0, 2.0, 10.0, 2000.0, 2e7]);
     }
 }
