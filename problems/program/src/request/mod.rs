@@ -136,6 +136,13 @@ pub enum Refusal {
         /// `rim lost 2`
         second: String,
     },
+    /// A part is asked for of what is read from a whole run.
+    Whole {
+        /// `count grip slips 2`
+        asked: String,
+        /// `count grip slips`
+        alone: String,
+    },
     /// An axis of a grid without the number of its values.
     Uncounted {
         /// The axis.
@@ -221,6 +228,10 @@ impl fmt::Display for Refusal {
             Refusal::EventNumber { event, second } => write!(
                 f,
                 "events are counted from 1: `{second}` is the second, and there is no `{event}`"
+            ),
+            Refusal::Whole { asked, alone } => write!(
+                f,
+                "`{alone}` is read from the whole run: leave out what follows it in `{asked}`; --end-after EVENT ends runs earlier"
             ),
             Refusal::Begin(error) | Refusal::Run(error) => write!(f, "{error}"),
             Refusal::Start(error) => write!(f, "no such start: {error}"),

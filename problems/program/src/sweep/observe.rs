@@ -59,7 +59,13 @@ impl Observation {
         let name = scene.result(&asked);
         let (what, at) = match (name.strip_prefix("count "), name.split_once(" at ")) {
             _ if name == "modes" => (What::Modes(Switches::of(description)), At::End),
-            (Some(event), _) => (What::Count, at(event, description)?),
+            (Some(event), _) => (What::Count, every(event, description)?),
+            (None, Some(("modes", _))) => {
+                return Err(Refusal::Whole {
+                    asked,
+                    alone: "modes".to_owned(),
+                });
+            }
             (None, Some((quantity, "the end"))) => (quantity_of(quantity, description)?, At::End),
             (None, Some((quantity, "end"))) if event("end", description).is_err() => {
                 (quantity_of(quantity, description)?, At::End)
@@ -163,6 +169,20 @@ fn at(text: &str, description: &'static Description) -> Result<At, Refusal> {
     Ok(At::Event(event(text, description)?.into()))
 }
 
+/// `item kind`, and no more: all of them are counted.
+fn every(text: &str, description: &'static Description) -> Result<At, Refusal> {
+    let second = text.match_indices(' ').nth(1);
+    let kind = second.map_or(text, |(end, _)| &text[..end]);
+    let found = at(kind, description)?;
+    match kind == text {
+        true => Ok(found),
+        false => Err(Refusal::Whole {
+            asked: format!("count {text}"),
+            alone: format!("count {kind}"),
+        }),
+    }
+}
+
 fn quantity_of(name: &str, description: &'static Description) -> Result<What, Refusal> {
     if name == "t" {
         return Ok(What::Time);
@@ -223,5 +243,30 @@ mod tests {
         let named = scene("named.lagrange", &named).expect("a declaration");
         let observed = Observation::new("x at end", named).expect("a stop");
         assert!(!matches!(observed.at, At::End));
+    }
+
+    #[test]
+    fn what_is_read_from_a_whole_run_has_no_part() {
+        let declared =
+            "coordinates(x), kinetic = der(x)^2, contact(wall: x <= 1), stop(end: x <= -1)";
+        let scene = scene("walls.lagrange", declared).expect("a declaration");
+        for (asked, alone) in [
+            ("count wall impact 2", "`count wall impact` is"),
+            ("count wall impact at the end", "`count wall impact` is"),
+            ("modes at wall impact", "`modes` is"),
+            ("modes at the end", "`modes` is"),
+        ] {
+            let refusal = Observation::new(asked, scene).expect_err(asked).to_string();
+            let told = refusal.contains(alone) && refusal.contains(&format!("in `{asked}`"));
+            assert!(told, "{refusal}");
+        }
+        for asked in ["count wall impact", "count end", "count end stop", "modes"] {
+            Observation::new(asked, scene).expect(asked);
+        }
+        let refusal = Observation::new("count wal impact 2", scene).expect_err("no such item");
+        assert!(
+            refusal.to_string().contains("did you mean `wall`?"),
+            "{refusal}"
+        );
     }
 }
