@@ -26,9 +26,12 @@ impl Axis {
         if part == 1.0 {
             self.to
         } else if self.logarithmic {
-            self.from * (self.to / self.from).powf(part)
+            // Their ratio might be too large for a number.
+            self.from.powf(1.0 - part) * self.to.powf(part)
         } else {
-            self.from + (self.to - self.from) * part
+            // So might their difference be, but not that of their halves.
+            let (from, to) = (0.5 * self.from, 0.5 * self.to);
+            2.0 * (from + (to - from) * part)
         }
     }
 
@@ -59,7 +62,8 @@ fn meant(value: f64, size: f64) -> f64 {
         .parse()
         .unwrap_or(value);
     match (short - value).abs() <= 8.0 * f64::EPSILON * size {
-        true => short,
+        // Zero has no sign.
+        true => short + 0.0,
         false => value,
     }
 }
@@ -137,6 +141,25 @@ mod tests {
         assert_eq!(axis.value(1), 1.0 / 3.0);
         let axis: Axis = "a=1e-30..4e-30:4".parse().expect("an axis");
         assert_eq!(axis.value(1), 2e-30);
+        let axis: Axis = "mu=-0.3..0.6:4".parse().expect("an axis");
+        assert_eq!(axis.value(1).to_string(), "0");
+    }
+
+    #[test]
+    fn the_widest_axes_are_finite() {
+        for (axis, middle) in [
+            ("a=1e-300..1e300:3:log", 1.0),
+            ("a=1e300..1e-300:3:log", 1.0),
+            ("a=-1e308..1e308:3", 0.0),
+            ("a=-1.7e308..-1.5e308:3", -1.6e308),
+        ] {
+            let axis: Axis = axis.parse().expect("an axis");
+            assert_eq!(axis.value(1), middle, "{axis}");
+            let (low, high) = (axis.from.min(axis.to), axis.from.max(axis.to));
+            for part in [0.0, 0.1, 1.0 / 3.0, 0.9, 1.0] {
+                assert!((low..=high).contains(&axis.at(part)), "{axis}");
+            }
+        }
     }
 
     #[test]
