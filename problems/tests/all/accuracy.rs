@@ -306,7 +306,9 @@ fn requests_without_sense_are_refused_in_one_line() {
     refused(&["--tolerances", "1"], "between 1e-17 and 0.1");
     refused(&["--tolerances", "2e-3..1e-9"], "powers of ten");
     refused(&["--target", "-1"], "must be above 0");
-    refused(&["--repeat", "0"], "1..=10000");
+    refused(&["--repeat", "0"], "`0` is not a number of rounds");
+    refused(&["--repeat", "1.5"], "`1.5` is not a number of rounds");
+    refused(&["--repeat", "1e6"], "there can be 1 to 10000 rounds");
     refused(&["--set", "mas=1"], "did you mean `mass`?");
     refused(&["--from", "rset"], "did you mean `rest`?");
     // No reference: the motion itself has no answer (Painlevé).

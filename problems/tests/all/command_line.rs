@@ -550,4 +550,13 @@ fn feasible_modes_are_listed_with_their_forces() {
     assert!((number(stays[2]) + b / a).abs() < 1e-12, "{said}");
     assert_eq!(number(flies[1]), 0.0);
     assert!((number(flies[4]) + 9.81).abs() < 1e-12, "{said}");
+    // 0 is the start, and what comes right after it is told in short.
+    assert_eq!(says(&[&asked[..], &["--at", "0"]].concat()), said);
+    let soon = says(&["modes", "mass-on-wheel", "--at", "1e-300"]);
+    assert!(soon.contains("At t = 1e-300 s the motion"), "{soon}");
+    refuses(
+        &["modes", "mass-on-wheel", "--at", "-1"],
+        2,
+        "not be below 0",
+    );
 }

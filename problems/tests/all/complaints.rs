@@ -74,9 +74,18 @@ fn a_size_that_nothing_could_hold_is_refused_with_it() {
     sweep(&["mass=1..2:1.5"], "`1.5` is not a number of values");
     let samples =
         |samples: &str, said: &str| refuses(&["run", "kepler", "--samples", samples], 2, said);
-    samples("1e9", "at most 1000000 intervals are sampled");
+    samples("1e9", "there can be 1 to 1000000 intervals");
     samples("ten", "`ten` is not a number of intervals");
     samples("0", "`0` is not a number of intervals");
+    let width = |width: &str, said: &str| refuses(&["report", "kepler", "--width", width], 2, said);
+    width("1.5", "`1.5` is not a number of pixels");
+    width("1e4", "there can be 16 to 8192 pixels");
+    let workers = ["sweep", "kepler", "--vary", "mu=1..2:2", "--observe", "x"];
+    refuses(
+        &[&workers[..], &["--workers", "all"]].concat(),
+        2,
+        "`all` is not a number of cores",
+    );
 }
 
 #[test]

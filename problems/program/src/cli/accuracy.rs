@@ -5,7 +5,7 @@ use super::output::{Output, draw, ready};
 use super::run_args::Motion;
 use super::shell;
 use super::terminal::{keep_what_is_done, patiently};
-use super::values::{picture, positive, tolerances};
+use super::values::{number_of, picture, positive, tolerances};
 use crate::accuracy::family;
 use crate::accuracy::{Accuracy, Family, Study};
 use crate::catalogue::Catalogue;
@@ -42,8 +42,8 @@ pub(super) struct Measure {
           default_value = "1e-3,1e-5,1e-7,1e-9,1e-11,1e-13,1e-15", allow_hyphen_values = true)]
     tolerances: Vec<Vec<f64>>,
     /// Times that everything is measured [default: 15, less often what takes long].
-    #[arg(long, help_heading = "The measurement", value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
-    repeat: Option<u32>,
+    #[arg(long, help_heading = "The measurement", value_name = "N", value_parser = number_of("rounds", 1, 10_000), allow_hyphen_values = true)]
+    repeat: Option<usize>,
     /// Answer only which method and tolerance reach this error in the shortest time.
     #[arg(long, help_heading = "The measurement", value_name = "X", value_parser = positive, allow_hyphen_values = true)]
     target: Option<f64>,
@@ -73,7 +73,7 @@ impl Measure {
                 false => self.methods,
             },
             tolerances: self.tolerances.concat(),
-            repeat: self.repeat.map(|n| n as usize),
+            repeat: self.repeat,
         };
         let measured = patiently(&format!("measuring {}", self.scene), &progress, || {
             scene.accuracy(&study)

@@ -3,7 +3,7 @@
 use super::Trouble;
 use super::output::{Output, ready};
 use super::run_args::RunArgs;
-use super::values::positive;
+use super::values::not_negative;
 use crate::catalogue::Catalogue;
 use crate::feasible::Feasible;
 use crate::format::Format;
@@ -25,7 +25,7 @@ pub(super) struct Modes {
     /// The scene, a declaration (….lagrange) or a scene file (….toml); `lagrange list` shows the scenes.
     scene: String,
     /// Time of the run, s [default: its start].
-    #[arg(long, value_name = "T", value_parser = positive, allow_hyphen_values = true)]
+    #[arg(long, value_name = "T", value_parser = not_negative, allow_hyphen_values = true)]
     at: Option<f64>,
     #[command(flatten)]
     run: RunArgs,

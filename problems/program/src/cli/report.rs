@@ -5,7 +5,7 @@ use super::output::{ready, to_file};
 use super::run_args::RunArgs;
 use super::shell;
 use super::terminal::{keep_what_is_done, patiently};
-use super::values::positive;
+use super::values::{number_of, positive};
 use super::watch::watched;
 use super::{Trouble, went_well};
 use crate::blame;
@@ -60,8 +60,8 @@ pub(super) struct Report {
     #[arg(long, help_heading = RESULTS, value_name = "DIR", conflicts_with = "output")]
     frames: Option<PathBuf>,
     /// Pixels from left to right of PNG, GIF and MP4 [default: 1048 for one run, 1000 more for each that stands beside it].
-    #[arg(long, help_heading = RESULTS, value_name = "N", value_parser = clap::value_parser!(u16).range(16..=8192))]
-    width: Option<u16>,
+    #[arg(long, help_heading = RESULTS, value_name = "N", value_parser = number_of("pixels", 16, 8192), allow_hyphen_values = true)]
+    width: Option<usize>,
     /// Pictures a second, of frames and of a picture that moves.
     #[arg(long, help_heading = RESULTS, value_name = "N", default_value = "25", value_parser = positive, allow_hyphen_values = true)]
     fps: f64,
@@ -214,7 +214,7 @@ impl Report {
     /// Pixels per unit of a picture.
     fn scale(&self, panels: &[Panel]) -> f32 {
         self.width.map_or(1.0, |width| {
-            f32::from(width) / frames::width(panels.len()) as f32
+            width as f32 / frames::width(panels.len()) as f32
         })
     }
 

@@ -4,7 +4,7 @@ use super::compare::Comparison;
 use super::output::{draw, ready, to_file};
 use super::run_args::RunArgs;
 use super::terminal::{keep_what_is_done, patiently};
-use super::values::{self, intervals, picture};
+use super::values::{self, number_of, picture};
 use super::watch::watched;
 use super::{Trouble, went_well};
 use crate::catalogue::Catalogue;
@@ -13,7 +13,7 @@ use crate::outcome::Outcome;
 use crate::progress::Progress;
 use crate::quantity::Show;
 use crate::report::plot;
-use crate::request::Request;
+use crate::request::{MOST_SAMPLES, Request};
 use crate::results::SAMPLES;
 use crate::scene::{RUN_STAGES, Scene};
 use crate::scene_file::{self, Outputs};
@@ -71,7 +71,7 @@ struct Results {
     #[arg(long, value_name = "CHANGE", allow_hyphen_values = true)]
     compare: Vec<Comparison>,
     /// Equal intervals of time to sample the motion at, beside the ends of its phases [default: 400].
-    #[arg(long, value_name = "N", value_parser = intervals, allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", value_parser = number_of("intervals", 1, MOST_SAMPLES), allow_hyphen_values = true)]
     samples: Option<usize>,
     /// Give the work of every item over time (csv, jsonl, parquet: columns; json: a list).
     #[arg(long)]

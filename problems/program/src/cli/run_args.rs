@@ -1,7 +1,7 @@
 //! Which run of a scene is meant: arguments that several commands share, and the request that they make.
 
 use super::Trouble;
-use super::values::{error, events, held, named, named_positive, positive, tolerance};
+use super::values::{error, held, named, named_positive, number_of, positive, tolerance};
 use crate::catalogue::Catalogue;
 use crate::file::{self, ENDING};
 use crate::names::method;
@@ -38,7 +38,7 @@ pub(super) struct RunArgs {
     #[arg(long, value_name = "M", value_parser = method)]
     method: Option<Method>,
     /// Events after which the run ends with an error [default: 100000; of each run of a sweep 10000].
-    #[arg(long, value_name = "N", value_parser = events, allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", value_parser = number_of("events", 1, usize::MAX), allow_hyphen_values = true)]
     max_events: Option<usize>,
 }
 

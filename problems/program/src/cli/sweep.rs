@@ -3,7 +3,7 @@
 use super::output::ready;
 use super::results::{Results, beside, verdict};
 use super::run_args::RunArgs;
-use super::values::whole;
+use super::values::{number_of, whole};
 use super::{Trouble, terminal};
 use crate::catalogue::Catalogue;
 use crate::sweep::launch::{self, Place};
@@ -52,8 +52,8 @@ pub(super) struct Sweeps {
     #[command(flatten)]
     results: Results,
     /// Cores to use [default: all; under mpirun, one per process].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    workers: Option<u16>,
+    #[arg(long, value_name = "N", value_parser = number_of("cores", 1, u16::MAX.into()), allow_hyphen_values = true)]
+    workers: Option<usize>,
     /// Do only part I of N (1/8 … 8/8), for array jobs. What is done stays in FILE.part; `lagrange merge` puts parts together.
     #[arg(long, value_name = "I/N", requires = "output")]
     shard: Option<Shard>,
@@ -98,7 +98,7 @@ impl Sweeps {
     fn alone(&self, sweep: &Sweep) -> Result<(), Trouble> {
         let shard = self.shard.unwrap_or(Shard::WHOLE);
         let journal = self.journal(sweep, shard)?;
-        let workers = self.workers.map_or(0, usize::from);
+        let workers = self.workers.unwrap_or(0);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(workers).build();
         let pool = pool.map_err(Trouble::failed)?;
         let ours = |chunk| shard.has(chunk);
@@ -119,7 +119,7 @@ impl Sweeps {
     #[cfg(feature = "mpi")]
     fn together(&self, sweep: &Sweep, place: Place) -> Result<(), Trouble> {
         let mut team = Team::gather(place, sweep).map_err(Trouble::failed)?;
-        let workers = self.workers.map_or(1, usize::from);
+        let workers = self.workers.unwrap_or(1);
         if !team.leads() {
             team.follow(sweep, workers);
             return Ok(());

@@ -2,7 +2,7 @@
 
 use crate::count::count;
 use crate::format::Still;
-use crate::request::{ERRORS, MOST_SAMPLES, TOLERANCES};
+use crate::request::{ERRORS, TOLERANCES};
 use core::str::FromStr;
 use std::path::PathBuf;
 
@@ -66,18 +66,25 @@ pub(super) fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A number of intervals to sample a run at.
-pub(super) fn intervals(text: &str) -> Result<usize, String> {
-    match count(text) {
-        Some(count) if count <= MOST_SAMPLES => Ok(count),
-        Some(_) => Err(format!("at most {MOST_SAMPLES} intervals are sampled")),
-        None => Err(format!("`{}` is not a number of intervals", text.trim())),
+/// A finite number from zero on.
+pub(super) fn not_negative(text: &str) -> Result<f64, String> {
+    match finite(text)? {
+        value if value >= 0.0 => Ok(value),
+        _ => Err("the value must not be below 0".to_owned()),
     }
 }
 
-/// A number of events.
-pub(super) fn events(text: &str) -> Result<usize, String> {
-    count(text).ok_or_else(|| format!("`{}` is not a number of events", text.trim()))
+/// A number of things, from `least` to `most` of them.
+pub(super) fn number_of(
+    things: &'static str,
+    least: usize,
+    most: usize,
+) -> impl Fn(&str) -> Result<usize, String> + Clone {
+    move |text| match count(text) {
+        Some(count) if (least..=most).contains(&count) => Ok(count),
+        Some(_) => Err(format!("there can be {least} to {most} {things}")),
+        None => Err(format!("`{}` is not a number of {things}", text.trim())),
+    }
 }
 
 /// A file for a picture, of a kind that can be written.

@@ -91,7 +91,7 @@ pub fn table(found: &Feasible, mut out: impl Write) -> io::Result<()> {
         }
     }
     writeln!(out, "{}\n", table.trim_fmt())?;
-    let time = found.time;
+    let time = Shortest(found.time);
     match found.modes.len() {
         1 => writeln!(
             out,
