@@ -20,15 +20,38 @@ pub enum Format {
 }
 
 impl Format {
-    /// The format that the name of a file says, if it says one.
-    pub fn of(path: &Path) -> Option<Self> {
-        Some(match path.extension()?.to_str()? {
-            "json" => Format::Json,
-            "csv" => Format::Csv,
-            "txt" => Format::Table,
-            _ => return None,
-        })
+    /// The format that the name of a file says, to read if it has no ending.
+    ///
+    /// # Errors
+    /// A sentence, if its ending is that of no format.
+    pub(crate) fn named(path: &Path) -> Result<Self, String> {
+        let of = |ending: &str| match ending {
+            "json" => Some(Format::Json),
+            "csv" => Some(Format::Csv),
+            "txt" => Some(Format::Table),
+            _ => None,
+        };
+        named(path, Format::Table, of, ".csv, .json or .txt")
     }
+}
+
+/// What the ending of a file's name says, or `plain` if it has none.
+///
+/// # Errors
+/// A sentence, if it is none of the `endings` that say something.
+pub(crate) fn named<F>(
+    path: &Path,
+    plain: F,
+    of: impl Fn(&str) -> Option<F>,
+    endings: &str,
+) -> Result<F, String> {
+    let Some(ending) = path.extension() else {
+        return Ok(plain);
+    };
+    ending.to_str().and_then(of).ok_or_else(|| {
+        let path = path.display();
+        format!("the name {path} says no format: let it end in {endings}, or give --format")
+    })
 }
 
 /// In what form to write a run.
@@ -64,17 +87,13 @@ impl RunFormat {
     /// # Errors
     /// A sentence, if its ending is that of no format.
     pub(crate) fn named(path: &Path) -> Result<Self, String> {
-        let Some(ending) = path.extension() else {
-            return Ok(RunFormat::Table);
-        };
-        let picture = match ending == "svg" {
+        let picture = match path.extension().is_some_and(|ending| ending == "svg") {
             true => "; pictures are drawn with --plot",
             false => "",
         };
-        Self::of(path).ok_or_else(|| {
-            let path = path.display();
-            format!("the name {path} says no format: let it end in .csv, .json, .jsonl, .parquet or .txt, or give --format{picture}")
-        })
+        let endings = ".csv, .json, .jsonl, .parquet or .txt";
+        named(path, RunFormat::Table, |_| Self::of(path), endings)
+            .map_err(|reason| format!("{reason}{picture}"))
     }
 
     /// Whether it says how the run was between its events.

@@ -1,6 +1,6 @@
 //! `lagrange inspect`: the program and the struct say the same, formats are what they are called, mistakes are one line.
 
-use crate::program::{refuses, says};
+use crate::program::{folder, path, refuses, says};
 use lagrange_core::prelude::*;
 use lagrange_problems::catalogue::scenes;
 use lagrange_problems::scenes::MassOnWheel;
@@ -144,21 +144,40 @@ fn what_makes_no_sense_is_refused_in_one_line() {
 }
 
 #[test]
-fn a_file_is_written() {
-    let file = std::env::temp_dir().join(format!("inspect-{}.md", std::process::id()));
-    let path = file.to_str().expect("a path");
-    let said = says(&[
-        "inspect",
-        "mass-on-wheel",
-        "--format",
-        "markdown",
-        "--output",
-        path,
-    ]);
-    let written = std::fs::read_to_string(&file).expect("a file");
-    std::fs::remove_file(&file).expect("it was there");
-    assert_eq!(said, "");
-    assert!(written.starts_with("# MassOnWheel\n") && written.contains("```mermaid\n"));
+fn a_file_has_the_format_that_its_name_says() {
+    let folder = folder("inspected");
+    let written = |name: &str, format: &[&str]| {
+        let file = folder.join(name);
+        let inspect = ["inspect", "mass-on-wheel", "--output", path(&file)];
+        assert_eq!(says(&[&inspect, format].concat()), "");
+        std::fs::read_to_string(file).expect("a file")
+    };
+    let printed = |format: &str| says(&["inspect", "mass-on-wheel", "--format", format]);
+    for (ending, format) in [
+        ("txt", "text"),
+        ("tex", "latex"),
+        ("html", "mathml"),
+        ("md", "markdown"),
+        ("rs", "rust"),
+        ("mmd", "graph"),
+        ("dot", "dot"),
+        ("json", "json"),
+    ] {
+        let name = format!("wheel.{ending}");
+        assert_eq!(written(&name, &[]), printed(format), "{name}");
+        let other = written(&name, &["--format", "markdown"]);
+        assert_eq!(other, printed("markdown"), "{name}");
+    }
+    assert_eq!(written("wheel", &[]), printed("text"));
+    assert_eq!(
+        says(&["inspect", "mass-on-wheel", "--output", "-"]),
+        printed("text")
+    );
+    refuses(
+        &["inspect", "mass-on-wheel", "--output", "wheel.pdf"],
+        2,
+        "the name wheel.pdf says no format: let it end in .txt, .tex,",
+    );
 }
 
 /// The LaTeX of all scenes on pages of the usual width. Skipped where there is no TeX.

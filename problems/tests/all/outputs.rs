@@ -276,6 +276,46 @@ fn a_dash_is_stdout() {
 }
 
 #[test]
+fn every_command_has_stdout_for_a_dash_and_no_other_ending_than_its_own() {
+    let folder = folder("outputs-dash");
+    let file = "pendulum.lagrange";
+    fs::write(folder.join(file), lagrange_program::file::TEMPLATE).expect("a file");
+    let said = |arguments: &[&str]| lagrange_in(&folder, arguments);
+    for command in [
+        &["verify", file][..],
+        &["modes", file],
+        &["export", file],
+        &["inspect", file],
+    ] {
+        let printed = said(command);
+        let dashed = said(&[command, &["--output", "-"]].concat());
+        assert!(!printed.stdout.is_empty(), "{command:?}");
+        assert_eq!(text(&dashed.stdout), text(&printed.stdout), "{command:?}");
+    }
+    for command in [
+        &["verify", file][..],
+        &["modes", file],
+        &["accuracy", file],
+        &["effects", file],
+        &["stability"],
+    ] {
+        let refused = said(&[command, &["--output", "a.parquet"]].concat());
+        let reason = text(&refused.stderr);
+        assert_eq!(refused.status.code(), Some(2), "{command:?}: {reason}");
+        let told = "the name a.parquet says no format: let it end in .csv, .json or .txt, or give --format";
+        assert!(reason.contains(told), "{command:?}: {reason}");
+    }
+    let report = |format: &str| said(&["report", file, "--output", "-", "--format", format]);
+    assert!(text(&report("html").stdout).trim_end().ends_with("</html>"));
+    assert!(text(&report("svg").stdout).ends_with("</svg>\n"));
+    let refused = report("gif");
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(text(&refused.stderr).contains("name a file for pixels"));
+    let there = fs::read_dir(&folder).expect("the folder").count();
+    assert_eq!(there, 1, "nothing but the declaration");
+}
+
+#[test]
 fn a_scene_file_says_where_everything_goes() {
     let folder = folder("outputs-of-a-file");
     let text = "scene = \"mass-on-wheel\"\nend_after = \"grip slips\"\n[outputs]\noutput = [\"a.csv\", \"a.parquet\"]\n\

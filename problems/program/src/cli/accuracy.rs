@@ -57,6 +57,7 @@ pub(super) struct Measure {
 impl Measure {
     pub(super) fn execute(self, catalogue: &Catalogue) -> Result<(), Trouble> {
         let file = self.motion.of(&self.scene, catalogue)?;
+        let format = self.output.format()?;
         let files = self.output.path().into_iter().chain(self.plot.as_deref());
         ready(files, std::slice::from_ref(&self.scene))?;
         let scene = file.scene;
@@ -85,7 +86,6 @@ impl Measure {
             }
             measured => measured.map_err(Trouble::refused)?,
         };
-        let format = self.output.format();
         let what = ["run".to_owned(), self.scene.clone()];
         let run = shell::command(what.into_iter().chain(self.motion.arguments()));
         let target = self.target.map(|target| (target, run.as_str()));

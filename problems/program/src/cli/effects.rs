@@ -32,6 +32,7 @@ pub(super) struct Effects {
 impl Effects {
     pub(super) fn execute(self, catalogue: &Catalogue) -> Result<(), Trouble> {
         let file = self.run.of(&self.scene, catalogue)?;
+        let format = self.output.format()?;
         ready(self.output.path(), std::slice::from_ref(&self.scene))?;
         let progress = Progress::default();
         let request = Request {
@@ -44,7 +45,6 @@ impl Effects {
             || file.scene.costs(&request),
         )
         .map_err(Trouble::refused)?;
-        let format = self.output.format();
         self.output.write(|out| write(&costs, format, out))
     }
 }

@@ -1,8 +1,8 @@
 //! `lagrange export`: a declaration in a file as a struct of Rust.
 
 use super::Trouble;
-use super::output::{ready, to_file};
-use crate::file::{self, ENDING, Exported};
+use super::output::{file, ready, to_file};
+use crate::file::{ENDING, Exported, export, read};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -29,10 +29,11 @@ impl Export {
                 self.file
             )));
         }
-        ready(self.output.as_deref(), std::slice::from_ref(&self.file))?;
-        let exported = file::read(&self.file).and_then(|text| file::export(&self.file, &text));
+        let path = file(self.output.as_deref());
+        ready(path, std::slice::from_ref(&self.file))?;
+        let exported = read(&self.file).and_then(|text| export(&self.file, &text));
         let exported = exported.map_err(Trouble::usage)?;
-        let Some(path) = &self.output else {
+        let Some(path) = path else {
             return super::print(|out| out.write_all(exported.rust.as_bytes()));
         };
         to_file(path, |out| out.write_all(exported.rust.as_bytes()))?;

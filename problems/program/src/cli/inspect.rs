@@ -1,10 +1,11 @@
 //! `lagrange inspect`: what was derived from a scene's declaration.
 
 use super::Trouble;
-use super::output::{ready, to_file};
+use super::output::{file, put, ready};
 use super::run_args::scene;
 use crate::catalogue::Catalogue;
 use crate::file::ENDING;
+use crate::format::named;
 use crate::names::nearest;
 use clap::{Args, ValueEnum};
 use lagrange_engine::inspect::{Derivation, print};
@@ -18,17 +19,18 @@ use std::path::PathBuf;
 #[command(after_help = "Examples:
   lagrange inspect mass-on-wheel
   lagrange inspect mass-on-wheel --mode \"rim closed, grip sticks\"
-  lagrange inspect mass-on-wheel --format latex --output wheel.tex")]
+  lagrange inspect mass-on-wheel --output wheel.tex")]
 pub(super) struct Inspect {
     /// The scene, a declaration (….lagrange) or a scene file (….toml); `lagrange list` shows the scenes.
     scene: String,
-    /// How to write it.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    /// How to write it [default: what the name of the output says, else text].
+    #[arg(long, value_enum)]
+    format: Option<Format>,
     /// Only this mode, "rim closed, grip sticks".
     #[arg(long, value_name = "MODE")]
     mode: Option<String>,
-    /// Write the result to a file instead of stdout.
+    /// Write the result to a file instead of stdout, in the format that its name says: ….txt, ….tex, ….html, ….md, ….rs, ….mmd, ….dot,
+    /// ….json. `-` is stdout.
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
@@ -53,6 +55,23 @@ enum Format {
     Json,
 }
 
+impl Format {
+    /// The format that the ending of a file's name says, if it says one.
+    fn of(ending: &str) -> Option<Self> {
+        Some(match ending {
+            "txt" => Format::Text,
+            "tex" => Format::Latex,
+            "html" | "htm" => Format::Mathml,
+            "md" => Format::Markdown,
+            "rs" => Format::Rust,
+            "mmd" => Format::Graph,
+            "dot" | "gv" => Format::Dot,
+            "json" => Format::Json,
+            _ => return None,
+        })
+    }
+}
+
 /// What is said of the Rust for a declaration in a file.
 const INTERPRETED: &str = "// What the derive macro emits for this declaration. A run of a file interprets the same operations;\n\
      // `lagrange export` writes the system for the macro.";
@@ -60,10 +79,12 @@ const INTERPRETED: &str = "// What the derive macro emits for this declaration. 
 impl Inspect {
     pub(super) fn execute(&self, catalogue: &Catalogue) -> Result<(), Trouble> {
         let scene = scene(&self.scene, catalogue)?.scene;
-        ready(self.output.as_deref(), &[])?;
+        let path = file(self.output.as_deref());
+        let format = self.format()?;
+        ready(path, &[])?;
         let declaration = scene.derivation().declaration;
         let tokens: proc_macro2::TokenStream = declaration.parse().map_err(Trouble::failed)?;
-        let text = match (self.format, &self.mode) {
+        let text = match (format, &self.mode) {
             (Format::Rust, None) => {
                 let text = lagrange_engine::readable(tokens);
                 match scene.name().ends_with(ENDING) {
@@ -82,9 +103,18 @@ impl Inspect {
                 written(&derivation, format)
             }
         };
-        match &self.output {
-            None => super::print(|out| out.write_all(text.as_bytes())),
-            Some(path) => to_file(path, |out| out.write_all(text.as_bytes())),
+        put(path, |out| out.write_all(text.as_bytes()))
+    }
+
+    /// What to write.
+    fn format(&self) -> Result<Format, Trouble> {
+        match (self.format, &self.output) {
+            (Some(format), _) => Ok(format),
+            (None, Some(path)) => {
+                let endings = ".txt, .tex, .html, .md, .rs, .mmd, .dot or .json";
+                named(path, Format::Text, Format::of, endings).map_err(Trouble::usage)
+            }
+            (None, None) => Ok(Format::Text),
         }
     }
 

@@ -36,11 +36,11 @@ pub(super) struct Modes {
 impl Modes {
     pub(super) fn execute(self, catalogue: &Catalogue) -> Result<(), Trouble> {
         let file = self.run.of(&self.scene, catalogue)?;
+        let format = self.output.format()?;
         ready(self.output.path(), std::slice::from_ref(&self.scene))?;
         let found = file.scene.modes(&file.request, self.at);
         let found =
             found.map_err(|refusal| Trouble::refused_run(refusal, file.scene, &file.request))?;
-        let format = self.output.format();
         self.output.write(|out| write(&found, format, out))
     }
 }

@@ -15,21 +15,24 @@ pub(super) struct Output {
     /// What to print [default: what the name of the output says, else table].
     #[arg(long, value_enum)]
     format: Option<Format>,
-    /// Write the result to a file (….csv, ….json, ….txt) instead of stdout.
+    /// Write the result to a file (….csv, ….json, ….txt) instead of stdout, which is `-`.
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
 
 impl Output {
     /// What to print.
-    pub(super) fn format(&self) -> Format {
-        let named = || self.output.as_deref().and_then(Format::of);
-        self.format.or_else(named).unwrap_or(Format::Table)
+    pub(super) fn format(&self) -> Result<Format, Trouble> {
+        match (self.format, &self.output) {
+            (Some(format), _) => Ok(format),
+            (None, Some(path)) => Format::named(path).map_err(Trouble::usage),
+            (None, None) => Ok(Format::Table),
+        }
     }
 
     /// The file, if it goes into one.
     pub(super) fn path(&self) -> Option<&Path> {
-        self.output.as_deref()
+        file(self.output.as_deref())
     }
 
     /// Writes where the user wants it.
@@ -37,10 +40,23 @@ impl Output {
         &self,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Trouble> {
-        match &self.output {
-            None => super::print(write),
-            Some(path) => to_file(path, write),
-        }
+        put(self.path(), write)
+    }
+}
+
+/// The file that an output names; `-` is stdout.
+pub(super) fn file(output: Option<&Path>) -> Option<&Path> {
+    output.filter(|path| *path != Path::new("-"))
+}
+
+/// Writes into a file or, without one, to stdout.
+pub(super) fn put(
+    path: Option<&Path>,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Trouble> {
+    match path {
+        None => super::print(write),
+        Some(path) => to_file(path, write),
     }
 }
 

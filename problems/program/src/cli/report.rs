@@ -1,7 +1,7 @@
 //! `lagrange report`: runs to look at, as a page, as frames for slides, or as a picture that moves.
 
 use super::compare::Comparison;
-use super::output::{ready, to_file};
+use super::output::{file, put, ready, to_file};
 use super::run_args::RunArgs;
 use super::shell;
 use super::terminal::{keep_what_is_done, patiently};
@@ -52,7 +52,8 @@ pub(super) struct Report {
     /// What to write [default: what the name of the output says, else html; of frames svg].
     #[arg(long, help_heading = RESULTS, value_enum)]
     format: Option<Form>,
-    /// The file to write: ….html, or a picture that moves, ….svg, ….png, ….gif, ….mp4 [default: report.html].
+    /// The file to write: ….html, or a picture that moves, ….svg, ….png, ….gif, ….mp4 [default: report.html]; a page or an SVG may go to
+    /// stdout, which is `-`.
     #[arg(long, help_heading = RESULTS, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Write numbered pictures into a folder instead: frame-0001.svg, frame-0002.svg, …, or with --format png
@@ -125,7 +126,7 @@ impl Report {
         if let Some(moving) = self.form()?.moving() {
             moving.ready(self.fps).map_err(Trouble::usage)?;
         }
-        ready(self.output.as_deref(), &self.scenes)?;
+        ready(file(self.output.as_deref()), &self.scenes)?;
         let progress = Progress::default();
         progress.expect(self.runs() * FILM_STAGES);
         keep_what_is_done(&progress);
@@ -167,21 +168,24 @@ impl Report {
                 ))
             })?,
         };
-        match self.frames.is_some() && !matches!(form, Form::Svg | Form::Png) {
-            true => Err(Trouble::usage(
-                "frames are pictures: give --format svg or --format png",
-            )),
-            false => Ok(form),
+        if self.frames.is_some() && !matches!(form, Form::Svg | Form::Png) {
+            let reason = "frames are pictures: give --format svg or --format png";
+            return Err(Trouble::usage(reason));
         }
+        if self.output.as_deref() == Some(Path::new("-")) && form.moving().is_some() {
+            let reason = "stdout takes a page or an SVG; name a file for pixels";
+            return Err(Trouble::usage(reason));
+        }
+        Ok(form)
     }
 
     fn write(&self, runs: &[Shown]) -> Result<(), Trouble> {
         let form = self.form()?;
         let usual = PathBuf::from(format!("report.{}", form.ending()));
-        let path = self.output.as_deref().unwrap_or(&usual);
+        let path = file(self.output.as_deref().or(Some(&usual)));
         if form == Form::Html {
             let command = shell::command(std::env::args().skip(1));
-            return to_file(path, |out| {
+            return put(path, |out| {
                 html::write(runs, self.speed, Some(&command), out)
             });
         }
@@ -197,9 +201,9 @@ impl Report {
         if let Some(folder) = &self.frames {
             return self.frames(&panels, &clock, form, folder);
         }
-        let Some(moving) = form.moving() else {
+        let (Some(moving), Some(path)) = (form.moving(), path) else {
             let text = frames::animated(&panels, &clock);
-            return to_file(path, |out| out.write_all(text.as_bytes()));
+            return put(path, |out| out.write_all(text.as_bytes()));
         };
         let pace = Pace {
             count: clock.instants.len(),

@@ -1,7 +1,7 @@
 //! `lagrange run`: one scene, from a start to its end.
 
 use super::compare::Comparison;
-use super::output::{draw, ready, to_file};
+use super::output::{self, draw, ready, to_file};
 use super::run_args::RunArgs;
 use super::terminal::{keep_what_is_done, patiently};
 use super::values::{self, number_of, picture};
@@ -198,7 +198,7 @@ fn shows(
 
 /// In which format the run goes into which file, or to stdout.
 fn destinations(outputs: &Outputs) -> Result<Vec<(RunFormat, Option<PathBuf>)>, Trouble> {
-    let file = |path: &PathBuf| (path != Path::new("-")).then(|| path.clone());
+    let file = |path: &PathBuf| output::file(Some(path)).map(Path::to_owned);
     let destinations = match (outputs.format, &outputs.output[..]) {
         (format, []) => vec![(format.unwrap_or(RunFormat::Table), None)],
         (Some(format), [path]) => vec![(format, file(path))],

@@ -36,6 +36,7 @@ pub(super) struct Stability {
 impl Stability {
     pub(super) fn execute(self, catalogue: &Catalogue) -> Result<(), Trouble> {
         let cases = self.cases(catalogue.cases)?;
+        let format = self.output.format()?;
         ready(self.output.path(), &[])?;
         let extent = match self.long {
             true => Extent::Long,
@@ -53,7 +54,6 @@ impl Stability {
             };
             wanted.map(run).collect()
         });
-        let format = self.output.format();
         self.output.write(|out| write(&reports, format, out))?;
         if reports.len() < all {
             return Err(Trouble::Interrupted(format!(

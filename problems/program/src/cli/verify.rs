@@ -41,6 +41,7 @@ pub(super) struct Verify {
 impl Verify {
     pub(super) fn execute(self, catalogue: &Catalogue) -> Result<(), Trouble> {
         let file = self.run.of(&self.scene, catalogue)?;
+        let format = self.output.format()?;
         ready(self.output.path(), std::slice::from_ref(&self.scene))?;
         let progress = Progress::default();
         progress.expect(RUN_STAGES);
@@ -56,7 +57,6 @@ impl Verify {
         let outcome = patiently(&words, &progress, || file.scene.run(&request));
         let outcome =
             outcome.map_err(|refusal| Trouble::refused_run(refusal, file.scene, &request))?;
-        let format = self.output.format();
         self.output.write(|out| write(&outcome, format, out))?;
         went_well(outcome, file.scene, &request)
     }
