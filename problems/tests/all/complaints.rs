@@ -113,6 +113,20 @@ fn what_is_missing_or_too_much_is_said() {
         2,
         "leave out the step size",
     );
+    for command in ["run", "accuracy", "effects"] {
+        refuses(
+            &[
+                command,
+                "mass-on-wheel",
+                "--without",
+                "rim",
+                "--end-after",
+                "grip slips",
+            ],
+            2,
+            "`grip slips`: `grip` is left out, and its events with it",
+        );
+    }
     refuses(
         &["accuracy", "kepler", "--tolerances", "2"],
         2,

@@ -136,6 +136,13 @@ pub enum Refusal {
         /// `rim lost 2`
         second: String,
     },
+    /// An event of what is left out.
+    LeftOut {
+        /// `rim lost`, `t at rim lost`
+        asked: String,
+        /// `rim`
+        item: &'static str,
+    },
     /// A part is asked for of what is read from a whole run.
     Whole {
         /// `count grip slips 2`
@@ -229,6 +236,9 @@ impl fmt::Display for Refusal {
                 f,
                 "events are counted from 1: `{second}` is the second, and there is no `{event}`"
             ),
+            Refusal::LeftOut { asked, item } => {
+                write!(f, "`{asked}`: `{item}` is left out, and its events with it")
+            }
             Refusal::Whole { asked, alone } => write!(
                 f,
                 "`{alone}` is read from the whole run: leave out what follows it in `{asked}`; --end-after EVENT ends runs earlier"
@@ -288,7 +298,9 @@ impl Request {
             simulation = simulation.max_events(limit);
         }
         for name in &self.end_after {
-            simulation = simulation.end_after(event(name, system.description())?);
+            let event = event(name, system.description())?;
+            self.can_happen(name, event.0, system.description())?;
+            simulation = simulation.end_after(event);
         }
         Ok(match &self.progress {
             Some(progress) => simulation.monitor(progress.monitor()),
@@ -320,6 +332,25 @@ impl Request {
             }
         }
         Ok(off.into_iter().fold(Effects::all(), Effects::without))
+    }
+
+    /// Refuses what is asked about the events of an item that is left out.
+    pub(crate) fn can_happen(
+        &self,
+        asked: &str,
+        subject: Subject,
+        description: &'static Description,
+    ) -> Result<(), Refusal> {
+        let effects = self.effects(description)?;
+        let name = subject.name(description);
+        let item = Item::all(description).find(|item| item.name(description) == name);
+        match item.is_none_or(|item| effects.includes(description, item)) {
+            true => Ok(()),
+            false => Err(Refusal::LeftOut {
+                asked: asked.to_owned(),
+                item: name,
+            }),
+        }
     }
 
     /// The state to start from; see [`Start::state`].

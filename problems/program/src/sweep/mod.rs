@@ -84,6 +84,9 @@ impl Sweep {
             if points.axes.iter().any(|axis| axis.name == column.name) {
                 column = Observation::new(&format!("{} at the end", column.name), scene)?;
             }
+            if let Some(event) = column.ends_with() {
+                request.can_happen(&column.name, event.subject, scene.description())?;
+            }
             if columns.iter().any(|other| other.name == column.name) {
                 return Err(Refusal::Repeated { name: column.name });
             }
