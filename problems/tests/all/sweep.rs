@@ -340,6 +340,17 @@ fn sweeps_without_sense_are_refused_in_one_line() {
         "no place for estimates",
     );
     of_wheel(
+        &[
+            "--vary",
+            "mass=1..2:3",
+            "--observe",
+            "t at rim lost",
+            "--without",
+            "rim",
+        ],
+        "`t at rim lost`: `rim` is left out, and its events with it",
+    );
+    of_wheel(
         &["--vary", "mass=1..2:3", "--observe", "theta at rim loss"],
         "did you mean `rim lost`?",
     );
@@ -552,5 +563,26 @@ fn what_never_happens_and_what_has_no_room_is_said() {
         "radius=1..2:1e5",
         &[],
         "the results take 1.6e10 bytes, too many for memory; keep them in a file with --output",
+    );
+}
+
+/// What a scene file gives is varied instead of that; the other numbers stay.
+#[test]
+fn the_command_line_has_the_last_word_over_a_scene_file() {
+    let folder = folder("sweep-scene-file");
+    let file = folder.join("wheel.toml");
+    let given =
+        "scene = \"mass-on-wheel\"\n[parameters]\nmass = 7\nmu_static = 2\n[start]\ntheta = 0.3\n";
+    fs::write(&file, given).expect("a file");
+    let vary = ["--vary", "mass=1..2:3", "--vary", "theta=0.1..0.2:2"];
+    let read = ["--observe", "t at grip slips", "--format", "csv"];
+    let of_file = says(&[&["sweep", path(&file)], &vary[..], &read].concat());
+    let set = ["sweep", "mass-on-wheel", "--set", "mu_static=2"];
+    assert_eq!(of_file, says(&[&set, &vary[..], &read].concat()));
+    let twice = ["sweep", path(&file), "--set", "mass=1"];
+    refuses(
+        &[&twice, &vary[..], &read].concat(),
+        2,
+        "`mass` is given twice",
     );
 }

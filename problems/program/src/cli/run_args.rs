@@ -19,7 +19,7 @@ const MOST_STEPS: f64 = 1e8;
 #[derive(Args)]
 pub(super) struct RunArgs {
     #[command(flatten)]
-    motion: Motion,
+    pub(super) motion: Motion,
     /// Tolerance of the integration, relative and absolute [default: 1e-9].
     #[arg(long, value_name = "X", value_parser = tolerance, allow_hyphen_values = true)]
     tolerance: Option<f64>,
@@ -106,6 +106,12 @@ impl Motion {
             request: self.request(file.request),
             ..file
         })
+    }
+
+    /// Whether the command line itself gives a parameter or a value of the start.
+    pub(super) fn gives(&self, name: &str) -> bool {
+        let mut given = self.set.iter().chain(&self.start);
+        given.any(|(other, _)| other == name)
     }
 
     /// The arguments that say the same.

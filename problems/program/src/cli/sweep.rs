@@ -67,6 +67,13 @@ impl Sweeps {
             return Err(Trouble::usage(reason));
         }
         let file = self.run.of(&self.scene, catalogue)?;
+        let mut request = file.request;
+        // What a scene file gives is varied instead; that the command line gives twice is refused.
+        let stays = |(name, _): &(String, f64)| {
+            self.run.motion.gives(name) || self.vary.iter().all(|axis| axis.name != *name)
+        };
+        request.parameters.retain(stays);
+        request.start.retain(stays);
         let points = Points {
             axes: self.vary.clone(),
             sampling: match self.sample {
@@ -74,8 +81,8 @@ impl Sweeps {
                 Some(sample) => sample.seeded(self.seed),
             },
         };
-        let sweep = Sweep::new(file.scene, file.request, points, &self.observe)
-            .map_err(Trouble::refused)?;
+        let sweep =
+            Sweep::new(file.scene, request, points, &self.observe).map_err(Trouble::refused)?;
         self.results.check_picture(&sweep)?;
         match launch::place() {
             Some(place) if self.shard.is_none() => self.together(&sweep, place),
