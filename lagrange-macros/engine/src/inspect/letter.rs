@@ -69,6 +69,37 @@ const GREEK: [(&str, &str, &str); 34] = [
     ("Omega", "Ω", "\\Omega"),
 ];
 
+/// TeX of letters that no name stands for: other forms of Greek ones, those that look like Latin ones, and some of physics.
+const OTHERS: [(&str, &str); 27] = [
+    ("ℓ", "\\ell"),
+    ("ħ", "\\hbar"),
+    ("ℏ", "\\hbar"),
+    ("ı", "\\imath"),
+    ("ȷ", "\\jmath"),
+    ("µ", "\\mu"),
+    ("ϵ", "\\epsilon"),
+    ("ϑ", "\\vartheta"),
+    ("ϰ", "\\kappa"),
+    ("ϖ", "\\varpi"),
+    ("ϱ", "\\varrho"),
+    ("ς", "\\varsigma"),
+    ("ϕ", "\\phi"),
+    ("ο", "o"),
+    ("Α", "\\mathrm{A}"),
+    ("Β", "\\mathrm{B}"),
+    ("Ε", "\\mathrm{E}"),
+    ("Ζ", "\\mathrm{Z}"),
+    ("Η", "\\mathrm{H}"),
+    ("Ι", "\\mathrm{I}"),
+    ("Κ", "\\mathrm{K}"),
+    ("Μ", "\\mathrm{M}"),
+    ("Ν", "\\mathrm{N}"),
+    ("Ο", "\\mathrm{O}"),
+    ("Ρ", "\\mathrm{P}"),
+    ("Τ", "\\mathrm{T}"),
+    ("Χ", "\\mathrm{X}"),
+];
+
 impl Letter {
     /// The letter of a name; a name that is no letter with a subscript stays whole. `length[2]` is `length` with
     /// subscript 2.
@@ -166,12 +197,13 @@ impl Letter {
         self.base.chars().count() == 1
     }
 
-    /// TeX of the base, if it is a Greek letter.
-    pub fn greek_tex(&self) -> Option<&'static str> {
-        GREEK
-            .iter()
-            .find(|(_, letter, _)| *letter == self.base)
-            .map(|(_, _, tex)| *tex)
+    /// The command of TeX for the base, if it is a letter that has one.
+    pub fn command(&self) -> Option<&'static str> {
+        let greek = GREEK.iter().map(|(_, letter, tex)| (*letter, *tex));
+        let mut known = greek.chain(OTHERS);
+        known
+            .find(|(letter, _)| *letter == self.base)
+            .map(|(_, tex)| tex)
     }
 }
 
@@ -211,6 +243,12 @@ pub fn lowered(text: &str) -> Option<String> {
             })
         })
         .collect()
+}
+
+/// The letter whose small form below the line this is.
+pub fn from_below(c: char) -> Option<char> {
+    ('a'..='z')
+        .find(|letter| lowered(&letter.to_string()).is_some_and(|small| small == c.to_string()))
 }
 
 /// Small digits above the line.

@@ -2,7 +2,7 @@
 
 use super::notation::{self, Notation};
 use crate::inspect::formula::{Formula, Relation, Statement};
-use crate::inspect::letter::{Letter, Mark};
+use crate::inspect::letter::{Letter, Mark, from_below};
 use crate::symbolic::Rational;
 
 /// LaTeX's mathematics.
@@ -22,13 +22,15 @@ pub fn statement(s: &Statement) -> String {
 /// terms, but inside of none of them.
 const LONG: usize = 70;
 
-/// A name in mathematics: Greek letters by their commands.
+/// A name in mathematics: letters by their commands, and what has none, `é`, as text.
 fn name(text: &str) -> String {
     let character = |c: char| {
         let single = c.to_string();
-        match Letter::of(&single, "").greek_tex() {
-            Some(tex) => format!("{tex} "),
-            None => escaped(&single),
+        match (Letter::of(&single, "").command(), from_below(c)) {
+            (Some(tex), _) => format!("{tex} "),
+            (None, Some(letter)) => format!("{{}}_{{{letter}}}"),
+            (None, None) if c.is_ascii() => escaped(&single),
+            (None, None) => format!("\\text{{{c}}}"),
         }
     };
     text.chars()
@@ -66,10 +68,10 @@ pub fn escaped(text: &str) -> String {
 
 impl Notation for Latex {
     fn letter(&self, letter: &Letter) -> String {
-        let base = match letter.greek_tex() {
+        let base = match letter.command() {
             _ if !letter.tex.is_empty() => format!("{{{}}}", letter.tex),
             Some(tex) => tex.to_owned(),
-            None if letter.is_single() => letter.base.clone(),
+            None if letter.is_single() => name(&letter.base),
             None => format!("\\mathrm{{{}}}", name(&letter.base)),
         };
         let dotted = match letter.dots() {

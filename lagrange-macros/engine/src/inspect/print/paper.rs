@@ -7,6 +7,7 @@ use super::latex;
 use crate::inspect::Derivation;
 use crate::inspect::document::{Block, Piece};
 use crate::inspect::formula::Statement;
+use crate::inspect::letter::{Letter, from_below};
 
 /// Letters that a row of a table has room for.
 const WIDEST: usize = 70;
@@ -51,8 +52,8 @@ fn words(text: &str) -> String {
     let mut rest = text.chars().peekable();
     while let Some(c) = rest.next() {
         let single = c.to_string();
-        let greek = crate::inspect::letter::Letter::of(&single, "");
-        match (greek.greek_tex(), c) {
+        let letter = Letter::of(&single, "");
+        match (letter.command(), c) {
             (Some(tex), _) => out.push_str(&format!("${tex}$")),
             // The power of a unit.
             (_, '^') => {
@@ -76,9 +77,10 @@ fn words(text: &str) -> String {
             (_, '…') => out.push_str("\\dots{}"),
             (_, '·') => out.push_str("$\\cdot$"),
             (_, '\u{307}') => out.push_str("\\.{}"),
-            (_, 'ₖ') => out.push_str("$_k$"),
-            (_, 'ₛ') => out.push_str("$_s$"),
-            _ => out.push_str(&latex::escaped(&single)),
+            _ => match from_below(c) {
+                Some(letter) => out.push_str(&format!("$_{letter}$")),
+                None => out.push_str(&latex::escaped(&single)),
+            },
         }
     }
     // Code in back quotes.

@@ -40,6 +40,37 @@ fn names_become_letters() {
     );
 }
 
+/// Letters that pdflatex does not have in its mathematics become commands of amsmath, or text.
+#[test]
+fn every_letter_of_latex_is_one_that_it_knows() {
+    let latex = |name: &str| print::latex::formula(&Formula::Letter(Letter::new(name)));
+    assert_eq!(
+        ["ℓ", "ħ1", "θ_ℓ", "µ", "ϕ", "é", "vₓ", "Χ", "ı"].map(latex),
+        [
+            "\\ell",
+            "\\hbar_{1}",
+            "\\theta_{\\ell}",
+            "\\mu",
+            "\\phi",
+            "\\text{é}",
+            "\\mathrm{v{}_{x}}",
+            "\\mathrm{X}",
+            "\\imath",
+        ]
+    );
+    // As text: rustc warns of letters that look alike.
+    let declared =
+        "#[lagrange(coordinates(x), kinetic = ħ*ℓ^2 * der(x)^2, potential = größe_ϕ * cos(x))]
+        struct Letters { ħ: f64, ℓ: f64, größe_ϕ: f64 }";
+    let d = derivation(declared.parse().expect("tokens"));
+    let paper = print::paper(&d);
+    let unknown = |c: &char| !c.is_ascii() && !"öß–".contains(*c);
+    assert_eq!(paper.chars().find(unknown), None, "{paper}");
+    for said in ["\\hbar \\, \\ell^{2}", "$\\ell$", "\\text{ö}"] {
+        assert!(paper.contains(said), "{said}: {paper}");
+    }
+}
+
 /// Names that would be one letter are two, of coordinates, fields, definitions, forces and energies.
 #[test]
 fn a_letter_stands_for_one_thing() {
