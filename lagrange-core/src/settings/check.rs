@@ -76,12 +76,16 @@ impl Settings {
             value > 0.0 && self.sizes[i].is_finite()
         };
         if let Some(&(CoordinateId(i), value)) = absolute.find(|given| !usable(given)) {
+            let expected = match value > 0.0 && value.is_finite() {
+                true => format!("below {:.1e}", f64::MAX * self.tolerance),
+                false => "positive and finite".to_owned(),
+            };
             return Err(Error::Domain {
                 time,
                 item: d.coordinates[i].name,
                 what: "absolute tolerance",
                 value,
-                expected: "positive and finite".to_owned(),
+                expected,
                 fields: Vec::new(),
             });
         }
