@@ -284,7 +284,6 @@ fn count(value: &Value, most: usize) -> Result<usize, Wrong> {
     }
 }
 
-/// A file for a picture.
 /// Files of numbers, whose names say their formats if nothing else does.
 fn results(value: &Value, says: bool) -> Result<Vec<PathBuf>, Wrong> {
     let paths = texts(value)?.into_iter();
@@ -295,6 +294,7 @@ fn results(value: &Value, says: bool) -> Result<Vec<PathBuf>, Wrong> {
     known.collect()
 }
 
+/// A file for a picture.
 fn picture(value: &Value) -> Result<PathBuf, Wrong> {
     let path = PathBuf::from(text(value)?);
     let known = Still::of(&path).map_err(|reason| (value.span().start, reason));
