@@ -100,12 +100,12 @@ fn a_bead_comes_back_to_where_it_presses_with_nothing() {
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     potential = gravity * y,
-    contact(ground: along * y + bend * x^2 / 2 + round * y^2 / 2 >= 0),
-    friction(grip on ground: slip = (along + round*y) * der(x) - bend*x * der(y), static = mu),
+    contact(ground: steep * y + bend * x^2 / 2 + round * y^2 / 2 >= 0),
+    friction(grip on ground: slip = (steep + round*y) * der(x) - bend*x * der(y), static = mu),
 )]
 struct Bank {
     gravity: f64,
-    along: f64,
+    steep: f64,
     bend: f64,
     round: f64,
     mu: f64,
@@ -124,7 +124,7 @@ fn a_bead_where_a_curve_is_just_as_steep_as_friction_holds_stays() {
             };
             let scene = Bank {
                 gravity: 9.81,
-                along: 1.0,
+                steep: 1.0,
                 bend,
                 round,
                 mu: 0.0,
@@ -162,7 +162,7 @@ fn a_bead_where_a_curve_is_just_as_steep_as_friction_holds_stays() {
     contact(toe: right[1] >= 0),
     friction(drag on heel: slip = der(left[0]), static = hold, kinetic = rub),
     friction(grip on toe: slip = der(right[0]), static = hold, kinetic = rub),
-    force(push: (push + grows*t, 0) at (x - high*sin(tilt), z + high*cos(tilt))),
+    force(shove: (push + grows*t, 0) at (x - high*sin(tilt), z + high*cos(tilt))),
     start(rest: z = low),
 )]
 struct Crate {

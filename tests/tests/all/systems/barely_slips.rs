@@ -259,7 +259,7 @@ struct Tripod {
 }
 
 /// All feet begin to slip where the push is as much as friction, with no acceleration, and go straight on along it: r (t − t₀)³ / (6 m).
-fn goes_straight<S: System<Scalar = f64>>(
+fn goes_straight<S: System<Scalar = f64> + core::fmt::Debug>(
     scene: &S,
     coordinates: usize,
     [mass, mu, rate, heading]: [f64; 4],

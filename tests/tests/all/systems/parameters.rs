@@ -304,11 +304,10 @@ fn runs_do_not_know_how_the_one_before_them_ended() {
         speed,
         angle: 0.4,
     };
-    let leaves = Simulation::new(&scene([0.0, 1.0])).tolerance(1e-12);
-    let mut leaves = leaves.end_after(Puck::TABLE).runner();
-    let mut slides = Simulation::new(&scene([0.0, 1.0]))
-        .tolerance(1e-12)
-        .runner();
+    let first = scene([0.0, 1.0]);
+    let exact = || Simulation::new(&first).tolerance(1e-12);
+    let mut leaves = exact().end_after(Puck::TABLE).runner();
+    let mut slides = exact().runner();
     for numbers in [
         [0.0, 3.0],
         [0.2, 4.0],

@@ -663,7 +663,7 @@ fn a_floor_that_ends_at_a_wall_is_as_good_as_an_endless_one() {
     }
 }
 
-/// The brow of a hill: a floor that ends where a round edge of the same height begins.
+/// The verge of a table: a floor that ends where a round edge of the same height begins.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
     coordinates(x, y),
@@ -673,7 +673,7 @@ fn a_floor_that_ends_at_a_wall_is_as_good_as_an_endless_one() {
     contact(edge: sqrt(x^2 + y^2) >= radius),
     start(there: y = radius, der(x) = speed),
 )]
-struct Brow {
+struct Verge {
     gravity: f64,
     radius: f64,
     speed: f64,
@@ -685,21 +685,21 @@ struct Brow {
 fn a_start_between_two_surfaces_follows_one_of_them() {
     for radius in [0.3, 1.0, 1.7] {
         for part in [-0.8, -0.1, 0.2, 0.5, 0.9, 1.3] {
-            let brow = Brow {
+            let verge = Verge {
                 gravity: G,
                 radius,
                 speed: part * (G * radius).sqrt(),
             };
             for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-9]) {
-                let what = format!("{brow:?} by {method} at {tolerance:e}");
+                let what = format!("{verge:?} by {method} at {tolerance:e}");
                 let until = 3.0 * (radius / G).sqrt();
-                let motion = run_by(&brow, (method, tolerance), brow.at(Brow::THERE), until);
+                let motion = run_by(&verge, (method, tolerance), verge.at(Verge::THERE), until);
                 let end = motion.final_state();
                 if part < 0.0 {
-                    agree(&what, end.q[0], brow.speed * until, 10.0 * tolerance);
+                    agree(&what, end.q[0], verge.speed * until, 10.0 * tolerance);
                     agree(&what, end.q[1], radius, 10.0 * tolerance);
                 } else if part > 1.0 {
-                    agree(&what, end.q[0], brow.speed * until, 10.0 * tolerance);
+                    agree(&what, end.q[0], verge.speed * until, 10.0 * tolerance);
                     let falls = radius - G * until * until / 2.0;
                     agree(&what, end.q[1], falls, 10.0 * tolerance);
                 } else {

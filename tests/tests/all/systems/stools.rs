@@ -181,7 +181,7 @@ fn feet_share_the_load_of_what_slides_on_them() {
     potential = gravity * z,
     contact(foot[k in 0..4]: z + b[k] * tilt[0] - a[k] * tilt[1] >= 0),
     friction(grip[k in 0..4] on foot[k]: slip = (der(place[k][0]), der(place[k][1])), static = mu),
-    force(push: (push*cos(heading), push*sin(heading)) at (x, y)),
+    force(shove: (push*cos(heading), push*sin(heading)) at (x, y)),
 )]
 struct Plate {
     radius: f64,
@@ -203,7 +203,7 @@ struct Plate {
     ),
     kinetic = (der(x)^2 + der(y)^2 + inertia * der(turn)^2) / 2,
     friction(grip[k in 0..4]: slip = (der(place[k][0]), der(place[k][1])), normal = gravity/4, static = mu),
-    force(push: (push*cos(heading), push*sin(heading)) at (x, y)),
+    force(shove: (push*cos(heading), push*sin(heading)) at (x, y)),
 )]
 struct Loaded {
     radius: f64,
