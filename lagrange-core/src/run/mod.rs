@@ -24,6 +24,7 @@ mod jumping_slips;
 mod locator;
 pub(crate) mod lockstep;
 mod log;
+mod margins;
 mod piece;
 mod reach;
 mod redundant;

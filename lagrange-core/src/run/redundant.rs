@@ -7,12 +7,14 @@
 
 use super::Run;
 use super::hit::Hit;
+use super::margins::Margins;
 use crate::arithmetic::Scalar;
 use crate::arithmetic::products::ROW;
 use crate::error::Error;
 use crate::modes::composite::CompositeGuard;
 use crate::modes::guard::Guard;
 use crate::modes::reading::Reading;
+use core::ops::ControlFlow;
 
 /// A composite guard above this (relative) is not about to fall.
 const BORDER: f64 = 1e-3;
@@ -226,55 +228,108 @@ impl<T: Scalar> Run<T> {
     /// there are new ones, or known ones are below zero with weights that are new; or the forces themselves are asked where they cease to keep all bounds.
     /// `last_kept` is the last of these instants at which they do.
     fn finds_joints_within(&mut self, end: f64, asks_forces: bool, last_kept: &mut f64) -> bool {
-        let mut found = false;
         let (first, each) = match self.directions_turn() {
             true => (0, 1),
             false => (1, 2),
         };
-        for part in WITHIN.into_iter().skip(first).step_by(each) {
-            let part = part * end;
+        let mut margins = Margins::default();
+        self.note_margin(end, &mut margins);
+        let mut found = false;
+        let mut goes_on = true;
+        let parts = WITHIN.into_iter().skip(first).step_by(each);
+        for part in parts.map(|part| part * end) {
             if self.evaluate_end(part).is_err() {
                 continue;
             }
-            self.switcher.redundant.follow(&mut self.dynamics);
-            let Some(composite) = self.switcher.redundant.critical(NEARBY) else {
-                *last_kept = part;
-                continue;
-            };
-            let falls = self.joint_value(&composite) < -ROOT;
-            if !falls {
-                *last_kept = part;
-            }
-            let mut known = self.locator.polynomials.composites.iter();
-            let known = known.position(|known| known.is_like(&composite));
-            // Where directions of friction turn, what is open cancels at one instant only: the root of such a guard may be none.
-            let refuted = known.is_none() && is_like_one_of(&self.locator.refuted, &composite);
-            if falls && (refuted || asks_forces) {
-                return self.locates_a_joint([*last_kept, part], end);
-            }
-            match known {
-                None if refuted => {}
-                None => {
-                    self.locator.polynomials.composites.push(composite);
-                    found = true;
+            match self.finds_a_joint(part, last_kept, end, asks_forces, &mut margins) {
+                ControlFlow::Continue(new) => found |= new,
+                ControlFlow::Break(new) => {
+                    (found, goes_on) = (found || new, false);
+                    break;
                 }
-                Some(k) => {
-                    let known = &mut self.locator.polynomials.composites[k];
-                    if known.falls_after.is_none() {
-                        *known = composite;
-                        found |= falls;
+            }
+        }
+        if goes_on && !found && margins.bends_more_than(ROOT) && self.evaluate_end(0.0).is_ok() {
+            self.switcher.redundant.follow(&mut self.dynamics);
+            self.note_margin(0.0, &mut margins);
+            while !found
+                && let Some(part) = margins.may_dip_at(ROOT)
+                && self.evaluate_end(part).is_ok()
+            {
+                let mut kept = margins.before(part);
+                match self.finds_a_joint(part, &mut kept, end, asks_forces, &mut margins) {
+                    ControlFlow::Continue(new) => found = new,
+                    ControlFlow::Break(new) => {
+                        found = new;
+                        break;
                     }
                 }
-            }
-            // What comes later has other weights.
-            if falls {
-                break;
             }
         }
         // What could be evaluated before.
         _ = self.evaluate_end(end);
         self.look_at_redundant_forces();
         found
+    }
+
+    /// Notes by how much forces keep all bounds at this part of the step, at least, where the dynamics have been evaluated.
+    fn note_margin(&self, part: f64, margins: &mut Margins) {
+        let redundant = &self.switcher.redundant;
+        let critical = redundant.critical(NEARBY);
+        let least = critical.map_or(NEARBY, |composite| self.joint_value(&composite));
+        margins.note(part, least, redundant.values());
+    }
+
+    /// Looks for a composite guard at this part of the step, where the dynamics have been evaluated: whether it is new; and whether nothing of what comes
+    /// after needs to be looked at. Forces are known to keep all bounds at `last_kept`.
+    fn finds_a_joint(
+        &mut self,
+        part: f64,
+        last_kept: &mut f64,
+        end: f64,
+        asks_forces: bool,
+        margins: &mut Margins,
+    ) -> ControlFlow<bool, bool> {
+        self.switcher.redundant.follow(&mut self.dynamics);
+        let critical = self.switcher.redundant.critical(NEARBY);
+        let value = critical.as_ref().map(|critical| self.joint_value(critical));
+        margins.note(
+            part,
+            value.unwrap_or(NEARBY),
+            self.switcher.redundant.values(),
+        );
+        let (Some(composite), Some(value)) = (critical, value) else {
+            *last_kept = part;
+            return ControlFlow::Continue(false);
+        };
+        let falls = value < -ROOT;
+        if !falls {
+            *last_kept = part;
+        }
+        let known = &mut self.locator.polynomials.composites;
+        let place = known.iter().position(|known| known.is_like(&composite));
+        // Where directions of friction turn, what is open cancels at one instant only: the root of such a guard may be none.
+        let refuted = place.is_none() && is_like_one_of(&self.locator.refuted, &composite);
+        if falls && (refuted || asks_forces) {
+            return ControlFlow::Break(self.locates_a_joint([*last_kept, part], end));
+        }
+        let found = match place {
+            None if refuted => false,
+            None => {
+                known.push(composite);
+                true
+            }
+            Some(k) if known[k].falls_after.is_none() => {
+                known[k] = composite;
+                falls
+            }
+            Some(_) => false,
+        };
+        // What comes later has other weights.
+        match falls {
+            true => ControlFlow::Break(found),
+            false => ControlFlow::Continue(found),
+        }
     }
 
     /// Locates where between these parts of the step forces cease to keep all bounds, and adds the composite guard that says so; `dynamics` and

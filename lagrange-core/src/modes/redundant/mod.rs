@@ -228,6 +228,11 @@ impl<T: Scalar> RedundantForces<T> {
         self.smallest(&self.bounds.forces.values, margin)
     }
 
+    /// The values of all bounds, relative to their sizes.
+    pub fn values(&self) -> &[f64] {
+        &self.bounds.forces.values
+    }
+
     /// The same for guards with other values than those looked at, and the same rows.
     pub fn critical_at(
         &self,

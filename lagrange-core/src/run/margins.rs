@@ -1,0 +1,89 @@
+//! How near undetermined forces may come to their bounds between the instants of a step at which that is known.
+//!
+//! The widest margin by which forces keep all bounds is a concave function of what bounds them (duality of linear and conic programmes): while
+//! that changes evenly, the margin is nowhere less than at both ends. It dips by no more than the values of the bounds bend.
+
+/// Of so many instants in one step nothing more is learnt.
+const MOST: usize = 24;
+
+/// Values may bend by so many times as much as their second differences tell.
+const SAFETY: f64 = 2.0;
+
+/// The margins at some instants of a step, in their order.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Margins {
+    known: Vec<Margin>,
+}
+
+#[derive(Clone, Debug)]
+struct Margin {
+    /// When, as a part of the step.
+    part: f64,
+    /// The widest margin, relative, or less.
+    least: f64,
+    /// The values of all bounds, relative.
+    values: Vec<f64>,
+}
+
+impl Margins {
+    /// Notes that with bounds of these `values` forces keep all of them by at least `least`.
+    pub fn note(&mut self, part: f64, least: f64, values: &[f64]) {
+        let place = self.known.partition_point(|known| known.part < part);
+        let margin = Margin {
+            part,
+            least,
+            values: values.to_vec(),
+        };
+        self.known.insert(place, margin);
+    }
+
+    /// The last instant before `part` at which a margin is known.
+    pub fn before(&self, part: f64) -> f64 {
+        let place = self.known.partition_point(|known| known.part < part);
+        place.checked_sub(1).map_or(0.0, |k| self.known[k].part)
+    }
+
+    /// Whether the first margin could be one that comes after a dip.
+    pub fn bends_more_than(&self, nothing: f64) -> bool {
+        (0..self.known.len().saturating_sub(1)).any(|k| self.dip(k) > nothing)
+    }
+
+    /// An instant between two known ones at which the margin may be less than zero, and a dip of more than `nothing` deeper than at both.
+    pub fn may_dip_at(&self, nothing: f64) -> Option<f64> {
+        if self.known.len() >= MOST {
+            return None;
+        }
+        let falls_by = |k: usize| {
+            let dip = self.dip(k);
+            let least = self.known[k].least.min(self.known[k + 1].least);
+            (dip > nothing).then_some(dip - least)
+        };
+        let gaps = (0..self.known.len().saturating_sub(1)).filter_map(|k| Some((k, falls_by(k)?)));
+        let (k, falls_by) = gaps.max_by(|x, y| x.1.total_cmp(&y.1))?;
+        (falls_by > 0.0).then(|| 0.5 * (self.known[k].part + self.known[k + 1].part))
+    }
+
+    /// How much less the margin may be between instants `k` and `k` + 1 than at both.
+    fn dip(&self, k: usize) -> f64 {
+        let length = self.known[k + 1].part - self.known[k].part;
+        let bends = [k.checked_sub(1), Some(k)].into_iter().flatten();
+        let bend = bends.map(|first| self.bend(first)).fold(0.0, f64::max);
+        SAFETY * bend * length * length / 4.0
+    }
+
+    /// The largest second divided difference of a value over three instants.
+    fn bend(&self, first: usize) -> f64 {
+        let Some([a, b, c]) = self.known.get(first..first + 3) else {
+            return 0.0;
+        };
+        if a.values.len() != b.values.len() || b.values.len() != c.values.len() {
+            return 0.0;
+        }
+        let slope =
+            |x: &Margin, y: &Margin, i: usize| (y.values[i] - x.values[i]) / (y.part - x.part);
+        let second = |i: usize| (slope(b, c, i) - slope(a, b, i)) / (c.part - a.part);
+        (0..a.values.len())
+            .map(|i| second(i).abs())
+            .fold(0.0, f64::max)
+    }
+}
