@@ -331,3 +331,63 @@ fn a_rod_that_lies_all_but_flat_falls() {
         }
     }
 }
+
+/// A wheel pressed into a rough corner, which a motor turns to and fro.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, turn),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2) + mass*radius^2/4 * der(turn)^2,
+    potential = mass*9.81*y - press*x,
+    contact(floor: y >= radius),
+    contact(wall: x <= -radius),
+    friction(grip on floor: slip = der(x) - radius*der(turn), static = mu),
+    friction(climb on wall: slip = der(y) - radius*der(turn), static = nu),
+    force(motor: turn = torque*sin(rate*t)),
+    start(corner: x = -radius, y = radius),
+)]
+struct Wheel {
+    mass: f64,
+    radius: f64,
+    mu: f64,
+    nu: f64,
+    press: f64,
+    torque: f64,
+    rate: f64,
+}
+
+/// Turned backward, floor and wall hold f ≤ μ (m g + c) and c ≤ ν (F − f): together f + c with f = μ (m g + ν F)/(1 + μ ν). A motor that asks for a little
+/// more than that, for a short time, turns it.
+#[test]
+fn a_wheel_in_a_corner_slips_however_shortly_it_is_turned_too_hard() {
+    let mut random = Random::new(23);
+    for case in 0..30 {
+        let mut wheel = Wheel {
+            mass: random.between(0.7, 1.5),
+            radius: 0.3,
+            mu: random.between(0.3, 0.8),
+            nu: random.between(0.3, 0.8),
+            press: random.between(4.0, 8.0),
+            torque: 0.0,
+            rate: random.between(2.0, 9.0),
+        };
+        let over = [1e-3, 3e-3, 1e-2][case % 3];
+        let (mu, nu, press) = (wheel.mu, wheel.nu, wheel.press);
+        let floor = mu * (wheel.mass * 9.81 + nu * press) / (1.0 + mu * nu);
+        // Else it comes off the wall before.
+        if floor > 0.98 * press {
+            continue;
+        }
+        let most = floor + nu * (press - floor);
+        wheel.torque = most * wheel.radius * (1.0 + over);
+        let slips = (core::f64::consts::PI + (1.0 / (1.0 + over)).asin()) / wheel.rate;
+        for (method, tolerance) in methods_at(["auto", "dop853"], [1e-9, 1e-12]) {
+            let what = format!("{wheel:?} by {method} at {tolerance:e}");
+            let until = 1.5 * core::f64::consts::PI / wheel.rate;
+            let run = run_by(&wheel, (method, tolerance), wheel.at(Wheel::CORNER), until);
+            for item in ["grip", "climb"] {
+                agree(&what, event(&run, item, "slips").time, slips, 1e-6);
+            }
+            certified(&what, &run);
+        }
+    }
+}
