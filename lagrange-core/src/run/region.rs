@@ -184,7 +184,7 @@ impl<T: Scalar> Run<T> {
             let passed = gap < -blur.max(self.touching(c)) || !self.within_region(guard, end);
             // What reaches the edge and the surface at once passes by it, unless it has been found to come onto it.
             let edge = self.locator.polynomials.of(Guard::Region(c));
-            let passes = gap.abs() <= self.touching(c)
+            let passes = gap.abs() <= blur.min(self.touching(c))
                 && !self.locator.fallen.contains(&Guard::Region(c))
                 && slope(curve, end) < 0.0
                 && !self.is_held_at(Guard::Region(c))
