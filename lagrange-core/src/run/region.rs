@@ -29,6 +29,9 @@ const ALIKE: f64 = 1e-3;
 /// What closes by no more than this share of its terms over a step does not hit where a surface ends, but touches.
 const HITS: f64 = 1e-6;
 
+/// Roots are located to this share of what a guard changes by in a step.
+const LOCATED: f64 = 1e-9;
+
 /// Whether the motion goes out at an edge is seen over this share of its extent, and where it goes out by no more than this share of that again it does not.
 const SOON: f64 = 1e-6;
 
@@ -125,7 +128,19 @@ impl<T: Scalar> Run<T> {
 
     /// Whether the motion is at the edge of contact `c`, of this curve, and goes out.
     fn leaves(&self, c: usize, edge: &[f64], s: f64) -> bool {
-        value(edge, s).abs() <= self.touching(c) && slope(edge, s) < 0.0
+        let distance = value(edge, s).abs();
+        distance
+            <= self
+                .blur(Guard::Region(c), edge, distance)
+                .min(self.touching(c))
+            && slope(edge, s) < 0.0
+    }
+
+    /// By so much a guard of this curve may be off that is `distance` from zero, as steps are located.
+    fn blur(&self, guard: Guard, curve: &[f64], distance: f64) -> f64 {
+        let size: f64 = curve.iter().map(|c| c.abs()).sum();
+        let polynomials = &self.locator.polynomials;
+        (LOCATED * size).max(polynomials.rounding(distance, guard, &self.dynamics))
     }
 
     /// Whether a guard is an edge that the motion is at over the whole step, as far as rounding tells: as what has come to rest there.
@@ -174,13 +189,8 @@ impl<T: Scalar> Run<T> {
                 continue;
             }
             let gap = value(curve, end);
-            let size: f64 = curve.iter().map(|c| c.abs()).sum();
             // Within the region it can only be a root that rounding has put into the next step.
-            let blur = (1e-9 * size).max(self.locator.polynomials.rounding(
-                gap.abs(),
-                guard,
-                &self.dynamics,
-            ));
+            let blur = self.blur(guard, curve, gap.abs());
             let passed = gap < -blur.max(self.touching(c)) || !self.within_region(guard, end);
             // What reaches the edge and the surface at once passes by it, unless it has been found to come onto it.
             let edge = self.locator.polynomials.of(Guard::Region(c));
