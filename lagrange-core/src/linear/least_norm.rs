@@ -20,20 +20,25 @@ use nalgebra::DVector;
 pub(crate) struct Freedom<T> {
     size: usize,
     projector: Vec<T>,
+    /// The same before forces were chosen; nothing if none has been.
+    whole: Vec<T>,
 }
 
 /// A force that can be changed by no more than this share of a change is determined.
 const DETERMINED: f64 = 1e-9;
 
 impl<T: Scalar> Freedom<T> {
-    /// Number of forces.
-    pub(crate) fn size(&self) -> usize {
-        self.size
-    }
-
     /// Row `i` of P.
     pub(crate) fn row(&self, i: usize) -> &[T] {
         &self.projector[i * self.size..(i + 1) * self.size]
+    }
+
+    /// The same as if none had been chosen.
+    pub(crate) fn whole_row(&self, i: usize) -> &[T] {
+        match self.whole.is_empty() {
+            true => self.row(i),
+            false => &self.whole[i * self.size..(i + 1) * self.size],
+        }
     }
 
     /// What of a linear function of the forces, (index, factor), is not determined: P a.
@@ -42,6 +47,25 @@ impl<T: Scalar> Freedom<T> {
             let terms = terms.iter();
             terms.fold(T::zero(), |sum, &(i, a)| sum + a * self.row(i)[j])
         })
+    }
+
+    /// Chooses force `i`, unless it is determined: what can be chosen otherwise is what leaves it as it is. How the others follow from it, by least norm,
+    /// per force.
+    pub(crate) fn choose(&mut self, i: usize) -> Option<Vec<T>> {
+        if self.is_determined(i) {
+            return None;
+        }
+        if self.whole.is_empty() {
+            self.whole.clone_from(&self.projector);
+        }
+        let square = self.row(i)[i];
+        let along: Vec<T> = self.row(i).iter().map(|&x| x / square).collect();
+        for (row, &part) in self.projector.chunks_exact_mut(self.size).zip(&along) {
+            for (x, &y) in row.iter_mut().zip(&along) {
+                *x -= part * y * square;
+            }
+        }
+        Some(along)
     }
 
     /// Whether force `i` is determined.
@@ -121,6 +145,7 @@ pub(crate) fn least_norm<T: Scalar>(
     let mut freedom = Freedom {
         size: m,
         projector: vec![T::zero(); m * m],
+        whole: Vec::new(),
     };
     for (i, force) in forces.iter_mut().enumerate() {
         freedom.projector[i * m + i] = T::one();
@@ -156,6 +181,22 @@ mod tests {
             assert!((found - expected).abs() < 1e-14);
         }
     }
+
+    #[test]
+    fn a_force_that_is_chosen_leaves_others_to_be_chosen() {
+        // Three rods share 6 along x; the first one is to carry nothing.
+        let mut forces = [6.0, 0.0, 0.0];
+        let mut freedom = least_norm(&[1.0, 1.0, 1.0], 1, Rank::Numerical, &mut forces);
+        let along = freedom.choose(0).unwrap();
+        for (found, expected) in along.into_iter().zip([1.0_f64, -0.5, -0.5]) {
+            assert!((found - expected).abs() < 1e-14);
+        }
+        assert!(freedom.is_determined(0) && !freedom.is_determined(1));
+        assert_eq!(freedom.dimension(), 1);
+        freedom.choose(1).unwrap();
+        assert!(freedom.choose(2).is_none());
+    }
+
     #[test]
     fn what_rounding_leaves_of_a_row_does_not_stand_for_another() {
         // Two rods and a screw along x; along y rounding is all that there is of them.

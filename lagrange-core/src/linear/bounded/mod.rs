@@ -34,6 +34,8 @@ pub(crate) struct ForceBounds<T> {
     pub(crate) sizes: Vec<f64>,
     /// Per row: at the forces of least norm.
     pub(crate) values: Vec<f64>,
+    /// What each row is the sum of: (index of a force, factor).
+    pub(crate) terms: Vec<Vec<(usize, f64)>>,
     /// The largest factor of each row.
     factors: Vec<f64>,
     /// How each row depends on the forces, without what has an effect, as parts of its largest factor.
@@ -53,13 +55,14 @@ impl<T: Scalar> ForceBounds<T> {
         self.cones.clear();
         self.sizes.clear();
         self.values.clear();
+        self.terms.clear();
         self.factors.clear();
         self.changes.clear();
         self.exact.clear();
     }
 
-    /// Adds s ≥ 0, or s₀ ≥ √(s₁² + s₂²), of `forces` of least norm. False, and nothing happens, if no part of it is open; its size is that of its
-    /// terms, and `least_size` at least.
+    /// Adds s ≥ 0, or s₀ ≥ √(s₁² + s₂²), of `forces` of least norm. False, and nothing happens, if no part of it is open, or was before forces were
+    /// chosen; its size is that of its terms, and `least_size` at least.
     pub(crate) fn add<const N: usize>(
         &mut self,
         rows: [Linear<'_, T>; N],
@@ -67,23 +70,11 @@ impl<T: Scalar> ForceBounds<T> {
         freedom: &Freedom<T>,
         least_size: impl FnOnce() -> f64,
     ) -> bool {
-        let changes = rows.map(|(terms, _)| {
-            let sizes = terms.iter().map(|(_, a)| a.value().abs());
-            let largest = sizes.fold(0.0, f64::max);
-            let part = |a: T| match largest > 0.0 {
-                true => a.value() / largest,
-                false => 0.0,
-            };
-            let change = DVector::from_fn(freedom.size(), |j, _| {
-                let terms = terms.iter();
-                let parts = terms.map(|&(i, a)| part(a) * freedom.row(i)[j].value());
-                parts.sum()
-            });
-            (change, largest)
-        });
-        if changes.iter().all(|(change, _)| change.amax() <= OPEN) {
+        let open = rows.map(|(terms, _)| change(terms, |i| freedom.whole_row(i)));
+        if open.iter().all(|(change, _)| change.amax() <= OPEN) {
             return false;
         }
+        let changes = rows.map(|(terms, _)| change(terms, |i| freedom.row(i)));
         let made_of = rows.iter().map(|(terms, constant)| {
             let terms = terms.iter();
             let parts = terms.map(|&(i, a)| (a * forces[i]).value().abs());
@@ -99,6 +90,8 @@ impl<T: Scalar> ForceBounds<T> {
             let value = (terms.iter()).fold(T::zero(), |sum, &(i, a)| sum + a * forces[i]);
             let value = value + constant;
             self.values.push(value.value());
+            let factors = terms.iter().map(|&(i, a)| (i, a.value()));
+            self.terms.push(factors.collect());
             if change.amax() <= CANCELLED {
                 change.fill(0.0);
             }
@@ -130,10 +123,10 @@ impl<T: Scalar> ForceBounds<T> {
             }
         }
         // Numbers about 1.
-        let scale = self
-            .open
-            .iter()
-            .fold(f64::MIN_POSITIVE, |m, x| m.max(x.abs()));
+        let scale = match self.open.is_empty() {
+            true => 1.0,
+            false => self.open.amax().max(f64::MIN_POSITIVE),
+        };
         self.open /= scale;
         self.basis = basis / scale;
         self.unit = scale.recip();
@@ -232,6 +225,25 @@ impl<T: Scalar> ForceBounds<T> {
             cones: self.cones.clone(),
         }
     }
+}
+
+/// How a sum of forces, (index, factor), changes with them, as a part of its largest factor; and that factor. Rows of a projector take out what has an effect.
+fn change<'a, T: Scalar>(
+    terms: &[(usize, T)],
+    row: impl Fn(usize) -> &'a [T],
+) -> (DVector<f64>, f64) {
+    let sizes = terms.iter().map(|(_, a)| a.value().abs());
+    let largest = sizes.fold(0.0, f64::max);
+    let part = |a: T| match largest > 0.0 {
+        true => a.value() / largest,
+        false => 0.0,
+    };
+    let width = row(0).len();
+    let change = DVector::from_fn(width, |j, _| {
+        let parts = terms.iter().map(|&(i, a)| part(a) * row(i)[j].value());
+        parts.sum()
+    });
+    (change, largest)
 }
 
 /// An orthonormal basis of the space that these rows span (Gram & Schmidt, the largest remainder first). Rows that hardly depend on the forces do

@@ -252,6 +252,17 @@ impl<T: Scalar> Choices<'_, T> {
         }
     }
 
+    /// Whether a friction other than `f` may stick in a mode.
+    fn others_hold(&self, mode: &Mode, f: usize) -> bool {
+        let frictions = self.description().frictions.iter().enumerate();
+        frictions.into_iter().any(|(other, friction)| {
+            other != f
+                && self.here.facts.resting[other]
+                && friction.normal.presses(|c| mode.contacts[c])
+                && self.grip(other) == Grip::Holds
+        })
+    }
+
     fn fades(&self, f: usize) -> bool {
         self.here.facts.resting[f]
             && slip_sign(f, self.here).is_some()
@@ -300,8 +311,8 @@ impl<T: Scalar> Choices<'_, T> {
                 put(FrictionMode::Slip(sliding));
             }
         } else if self.here.facts.resting[f] {
-            // What cannot hold does not bring a slip to rest.
-            if grip != Grip::Fades {
+            // What cannot hold does not bring a slip to rest, unless others do.
+            if grip != Grip::Fades || self.others_hold(mode, f) {
                 put(FrictionMode::Stick);
             }
             for &bearing in bearings {

@@ -7,7 +7,7 @@ use crate::linear::{ForceBounds, Linear};
 use crate::mode::FrictionMode;
 use crate::modes::composite::CompositeGuard;
 use crate::modes::guard::{self, ConePlane, Guard};
-use crate::system::{Normal, ValueRef};
+use crate::system::{Friction, Normal, ValueRef};
 
 /// A bound of undetermined forces.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +27,14 @@ impl Bound {
             pressing: self.pressing,
         }
     }
+}
+
+/// What a friction can hold: a sum of forces, (index, factor), and a constant.
+struct Limit<T> {
+    /// What the forces of what presses it count.
+    pressing: [T; 3],
+    terms: Vec<(usize, T)>,
+    constant: T,
 }
 
 /// The bounds with a part that is open.
@@ -51,7 +59,6 @@ impl<T: Scalar> RedundantForces<T> {
         let d = dynamics.description();
         let acting = dynamics.acting_rows();
         let index = |row: usize| acting.binary_search(&row).ok();
-        let number = |place: ValueRef| dynamics.motion(place);
         let mode = dynamics.mode();
         for (c, contact) in d.contacts.iter().enumerate() {
             if let Some(i) = index(contact.row) {
@@ -71,49 +78,13 @@ impl<T: Scalar> RedundantForces<T> {
             let Some(i) = index(friction.row) else {
                 continue;
             };
-            let coefficient = number(friction.static_coefficient);
-            let mut pressing = [T::one(), T::zero(), T::zero()];
-            let mut limits = Vec::with_capacity(3);
-            let constant = match friction.normal {
-                Normal::Contact(c) => {
-                    let factor = d.contacts[c].normal_factor.map_or(T::one(), number);
-                    let Some(row) = index(d.contacts[c].row) else {
-                        continue;
-                    };
-                    limits.push((row, coefficient * factor));
-                    T::zero()
-                }
-                Normal::Given(place) => coefficient * number(place),
-                Normal::Constraint(on) => {
-                    let Some(row) = index(d.constraints[on].row) else {
-                        continue;
-                    };
-                    // Only where a force is open its sign is a choice.
-                    let own = match self.least.freedom.is_determined(row) {
-                        true => self.sign_of_least(row),
-                        false => None,
-                    };
-                    pressing[0] = T::from_f64(own.unwrap_or(self.signs[on]));
-                    limits.push((row, coefficient * pressing[0]));
-                    T::zero()
-                }
-                // What the least forces press in their direction, others press at least.
-                normal @ Normal::Resultant(_) => {
-                    let Some(rows) = normal.rows(d).map(index).collect::<Option<Vec<_>>>() else {
-                        continue;
-                    };
-                    let force = |&row: &usize| self.least.forces[row];
-                    let squares = rows.iter().map(|row| force(row) * force(row));
-                    let size = squares.fold(T::zero(), |sum, square| sum + square).sqrt();
-                    if size.value() > 0.0 {
-                        for (part, row) in pressing.iter_mut().zip(&rows) {
-                            *part = force(row) / size;
-                        }
-                    }
-                    let parts = pressing.map(|part| coefficient * part);
-                    limits.extend(rows.into_iter().zip(parts));
-                    T::zero()
-                }
+            let Some(Limit {
+                pressing,
+                terms: limits,
+                constant,
+            }) = self.limit(friction, dynamics)
+            else {
+                continue;
             };
             let one = T::one();
             let contact = match friction.normal {
@@ -143,6 +114,59 @@ impl<T: Scalar> RedundantForces<T> {
             }
         }
         self.bounds.forces.complete();
+    }
+
+    /// What a friction that sticks can hold; nothing if what presses it does not act.
+    fn limit(&self, friction: &Friction, dynamics: &Dynamics<T>) -> Option<Limit<T>> {
+        let d = dynamics.description();
+        let acting = dynamics.acting_rows();
+        let index = |row: usize| acting.binary_search(&row).ok();
+        let number = |place: ValueRef| dynamics.motion(place);
+        let coefficient = number(friction.static_coefficient);
+        let mut pressing = [T::one(), T::zero(), T::zero()];
+        let mut terms = Vec::with_capacity(3);
+        let constant = match friction.normal {
+            Normal::Contact(c) => {
+                let factor = d.contacts[c].normal_factor.map_or(T::one(), number);
+                let row = index(d.contacts[c].row)?;
+                terms.push((row, coefficient * factor));
+                T::zero()
+            }
+            Normal::Given(place) => coefficient * number(place),
+            Normal::Constraint(on) => {
+                let Some(row) = index(d.constraints[on].row) else {
+                    return None;
+                };
+                // Only where a force is open its sign is a choice.
+                let own = match self.least.freedom.is_determined(row) {
+                    true => self.sign_of_least(row),
+                    false => None,
+                };
+                pressing[0] = T::from_f64(own.unwrap_or(self.signs[on]));
+                terms.push((row, coefficient * pressing[0]));
+                T::zero()
+            }
+            // What the least forces press in their direction, others press at least.
+            normal @ Normal::Resultant(_) => {
+                let rows = normal.rows(d).map(index).collect::<Option<Vec<_>>>()?;
+                let force = |&row: &usize| self.least.forces[row];
+                let squares = rows.iter().map(|row| force(row) * force(row));
+                let size = squares.fold(T::zero(), |sum, square| sum + square).sqrt();
+                if size.value() > 0.0 {
+                    for (part, row) in pressing.iter_mut().zip(&rows) {
+                        *part = force(row) / size;
+                    }
+                }
+                let parts = pressing.map(|part| coefficient * part);
+                terms.extend(rows.into_iter().zip(parts));
+                T::zero()
+            }
+        };
+        Some(Limit {
+            pressing,
+            terms,
+            constant,
+        })
     }
 
     /// Turns the planes that touch cones of frictions on constraints whose force vanishes at the instant, here and in `composites`: |λ| presses as λ begins.

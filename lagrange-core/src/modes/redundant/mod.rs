@@ -11,6 +11,7 @@
 //! together, where μs (N₁ + N₂) − (F₁ + F₂) falls through zero.
 
 mod bounds;
+mod idle;
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, LeastForces};
@@ -21,6 +22,7 @@ use crate::modes::guard::{ConePlane, Guard};
 use crate::modes::scale::Sizes;
 use crate::system::{Description, Friction, Normal};
 use bounds::Bounds;
+use idle::Idle;
 
 /// Undetermined forces at one state; the memory is reused.
 #[derive(Clone, Debug, Default)]
@@ -29,6 +31,8 @@ pub struct RedundantForces<T> {
     /// Signs of the forces of constraints, for the frictions that they carry.
     signs: Vec<f64>,
     bounds: Bounds<T>,
+    /// Forces of frictions that can hold nothing.
+    idle: Vec<Idle>,
     sizes: Sizes,
     /// The largest drive so far: loads that are nothing now may be large again.
     largest_drive: f64,
@@ -55,6 +59,7 @@ impl<T: Scalar> RedundantForces<T> {
     /// Forgets everything: all forces are determined.
     pub fn clear(&mut self) {
         self.bounds.clear();
+        self.idle.clear();
         self.least.forces.clear();
     }
 
@@ -82,6 +87,7 @@ impl<T: Scalar> RedundantForces<T> {
         }
         self.least = dynamics.least_norm_of_acting();
         dynamics.complete_outputs();
+        self.choose_idle(dynamics);
         self.sizes.take(dynamics);
         self.largest_drive = self.largest_drive.max(self.sizes.drive);
         self.sizes.drive = self.largest_drive;
@@ -203,6 +209,7 @@ impl<T: Scalar> RedundantForces<T> {
     /// Whether a guard concerns forces that are not determined, so that by itself it decides nothing.
     pub fn is_open(&self, guard: Guard) -> bool {
         self.bounds.list.iter().any(|bound| bound.guard == guard)
+            || self.idle.iter().any(|idle| idle.has(guard))
     }
 
     /// Whether any guard does.
@@ -240,6 +247,7 @@ impl<T: Scalar> RedundantForces<T> {
     ) -> Option<CompositeGuard> {
         let forces = &self.bounds.forces;
         let mut values = Vec::with_capacity(forces.values.len());
+        let changes = self.without_idle(&mut value);
         for ((bound, cone), size) in self
             .bounds
             .list
@@ -255,6 +263,12 @@ impl<T: Scalar> RedundantForces<T> {
                     let [north, south] = [1.0, -1.0].map(|y| side([0.0, y]));
                     values.extend([east + west, west - east, south - north].map(|x| 0.5 * x));
                 }
+            }
+        }
+        for (cone, size) in forces.cones.iter().zip(&forces.sizes) {
+            for row in cone.rows() {
+                let terms = forces.terms[row].iter();
+                values[row] += terms.map(|&(i, a)| a * changes[i]).sum::<f64>() / size;
             }
         }
         self.smallest(&values, -ROUNDING)
@@ -291,8 +305,14 @@ impl<T: Scalar> RedundantForces<T> {
             let normal = bound.contact.map(Guard::Normal);
             normal.is_some_and(|normal| !self.is_open(normal))
         });
+        let mut factors = vec![0.0; self.least.forces.len()];
         let parts = parts.map(|((bound, (cone, size)), _)| {
             let weight = z[cone.first()];
+            for row in cone.rows() {
+                for &(i, factor) in &forces.terms[row] {
+                    factors[i] += z[row] * factor / (sum * size);
+                }
+            }
             let along = |i: usize| [i + 1, i + 2].map(|i| -z[i] / weight);
             Part {
                 guard: bound.guard,
@@ -303,8 +323,10 @@ impl<T: Scalar> RedundantForces<T> {
                 weight: weight / (sum * size),
             }
         });
+        let mut parts: Vec<Part> = parts.collect();
+        parts.extend(self.parts_of_idle(factors));
         let composite = CompositeGuard {
-            parts: parts.collect(),
+            parts,
             falls_after: None,
         };
         (!told || !composite.is_of_limits()).then_some(composite)
