@@ -275,9 +275,8 @@ impl<T: Scalar> Run<T> {
     /// Notes by how much forces keep all bounds at this part of the step, at least, where the dynamics have been evaluated.
     fn note_margin(&self, part: f64, margins: &mut Margins) {
         let redundant = &self.switcher.redundant;
-        let critical = redundant.critical(NEARBY);
-        let least = critical.map_or(NEARBY, |composite| self.joint_value(&composite));
-        margins.note(part, least, redundant.values());
+        let (margin, _) = redundant.nearest(NEARBY);
+        margins.note(part, margin, redundant.values());
     }
 
     /// Looks for a composite guard at this part of the step, where the dynamics have been evaluated: whether it is new; and whether nothing of what comes

@@ -141,11 +141,9 @@ impl<T: Scalar> Run<T> {
         self.hand_over();
         let facts = &mut self.switcher.status.facts;
         let composites = &self.locator.polynomials.composites;
-        // A force of several constraints that has turned ends no mode: its friction slips on, pressed in another direction. Neither does what frictions
-        // can hold, if that is nothing at this instant.
+        // A force of several constraints that has turned ends no mode: its friction slips on, pressed in another direction.
         let goes_on = |guard: &Guard| match *guard {
             Guard::NormalForceSign(f) => matches!(d.frictions[f].normal, Normal::Resultant(_)),
-            Guard::Composite(k) => composites[k].is_of_limits(),
             _ => false,
         };
         facts.again = self.switcher.stuck.len() > 1;

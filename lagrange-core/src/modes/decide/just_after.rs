@@ -113,8 +113,6 @@ impl<T: Scalar> Decider<T> {
             let mut series = [0.0; guard::LENGTH];
             let series = &mut series[..=order];
             match self.just_after(guard, order_known, ahead, series) {
-                // What frictions can hold touches zero at most: it was located a little before.
-                Leading::Falls if self.is_of_limits(guard) => self.zeros.push((guard, 2)),
                 Leading::Falls => blame(guard, &self.composites, &mut self.violated),
                 Leading::Rises(0) => {}
                 Leading::Rises(k) => self.zeros.push((guard, k)),
@@ -142,11 +140,6 @@ impl<T: Scalar> Decider<T> {
             return None;
         }
         Some(self.violated.is_empty())
-    }
-
-    /// Whether a guard says only how much frictions can hold.
-    fn is_of_limits(&self, guard: Guard) -> bool {
-        matches!(guard, Guard::Composite(k) if self.composites[k].is_of_limits())
     }
 
     /// How long slips that are under way keep their directions, s: beyond the time in which one of two components may turn or end its series

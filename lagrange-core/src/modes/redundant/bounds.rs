@@ -15,8 +15,6 @@ pub(super) struct Bound {
     pub guard: Guard,
     /// What the forces of the constraints that carry a friction count.
     pressing: [f64; 3],
-    /// The contact whose force the friction holds a constant share of.
-    pub contact: Option<usize>,
 }
 
 impl Bound {
@@ -66,7 +64,6 @@ impl<T: Scalar> RedundantForces<T> {
                 let bound = Bound {
                     guard: Guard::Normal(c),
                     pressing: [1.0, 0.0, 0.0],
-                    contact: None,
                 };
                 self.bound(bound, gap, dynamics);
             }
@@ -87,14 +84,9 @@ impl<T: Scalar> RedundantForces<T> {
                 continue;
             };
             let one = T::one();
-            let contact = match friction.normal {
-                Normal::Contact(c) if !friction.static_coefficient.varies() => Some(c),
-                _ => None,
-            };
             let bound = |guard| Bound {
                 guard,
                 pressing: pressing.map(T::value),
-                contact,
             };
             if guard::stick_guards(f, friction).eq([Guard::StickCone(f)]) {
                 let other = (friction.components > 1).then(|| index(friction.row + 1));

@@ -232,6 +232,11 @@ impl<T: Scalar> RedundantForces<T> {
 
     /// The composite guard that forbids the mode, or comes nearer to that than `margin` (relative): of all the smallest.
     pub fn critical(&self, margin: f64) -> Option<CompositeGuard> {
+        self.nearest(margin).1
+    }
+
+    /// The same, and the widest margin by which forces keep all bounds, or `margin` if that is less.
+    pub fn nearest(&self, margin: f64) -> (f64, Option<CompositeGuard>) {
         self.smallest(&self.bounds.forces.values, margin)
     }
 
@@ -271,15 +276,16 @@ impl<T: Scalar> RedundantForces<T> {
                 values[row] += terms.map(|&(i, a)| a * changes[i]).sum::<f64>() / size;
             }
         }
-        self.smallest(&values, -ROUNDING)
+        self.smallest(&values, -ROUNDING).1
     }
 
-    /// The composite guard of bounds with these `values` that is smallest, and below `margin`.
-    fn smallest(&self, values: &[f64], margin: f64) -> Option<CompositeGuard> {
+    /// The widest margin by which forces keep bounds with these `values`, up to `margin`, and the composite guard that tells of it. What frictions can hold is
+    /// not negative: a guard that says only how much that is tells nothing.
+    fn smallest(&self, values: &[f64], margin: f64) -> (f64, Option<CompositeGuard>) {
         // Those of least norm may do.
         let forces = &self.bounds.forces;
         if !self.has_open() || forces.least(values) >= margin {
-            return None;
+            return (margin, None);
         }
         let ConicPoint { x, z } = forces.widest(values, margin);
         let weights = forces.cones.iter().map(|cone| z[cone.first()]);
@@ -287,7 +293,7 @@ impl<T: Scalar> RedundantForces<T> {
         let sum: f64 = weights.clone().sum();
         let value: f64 = values.iter().zip(&z).map(|(x, z)| x * z).sum();
         if !(sum > 0.5 && value < margin * sum) {
-            return None;
+            return (margin, None);
         }
         let largest = weights.fold(0.0, f64::max);
         let slacks = forces.slacks(values, &x);
@@ -300,11 +306,6 @@ impl<T: Scalar> RedundantForces<T> {
         let weighs = |cone: &Cone, slack: f64| z[cone.first()] > slack.max(NO_WEIGHT * largest);
         let parts = list.zip(slacks);
         let parts = parts.filter(|((_, (cone, _)), slack)| weighs(cone, *slack));
-        // What frictions can hold ends with the forces of contacts, where these tell of it by themselves.
-        let told = parts.clone().all(|((bound, _), _)| {
-            let normal = bound.contact.map(Guard::Normal);
-            normal.is_some_and(|normal| !self.is_open(normal))
-        });
         let mut factors = vec![0.0; self.least.forces.len()];
         let parts = parts.map(|((bound, (cone, size)), _)| {
             let weight = z[cone.first()];
@@ -329,7 +330,8 @@ impl<T: Scalar> RedundantForces<T> {
             parts,
             falls_after: None,
         };
-        (!told || !composite.is_of_limits()).then_some(composite)
+        let tells = !composite.is_of_limits();
+        (value / sum, tells.then_some(composite))
     }
 
     /// Whether bounds keep forces from being those of least norm.
