@@ -14,6 +14,9 @@ use crate::system::{Description, Normal, ValueRef};
 /// once. Beyond, [`pivot`](super::pivot) finds a mode without looking at all.
 pub const MOST_CANDIDATES: usize = 256;
 
+/// So many are where nothing else finds one: some hundredths of a second.
+pub const MOST_OF_ALL: usize = 8192;
+
 /// States that one friction can be in: stick, and two directions of slip for each of two signs of the normal force.
 const MOST_STATES: usize = 5;
 
@@ -150,13 +153,14 @@ fn rank(mode: &Mode, here: SwitchContext<'_, impl Copy>) -> u128 {
 }
 
 impl Listings {
-    /// All modes that the known facts allow, in order of preference; `None` if they are too many.
+    /// All modes that the known facts allow, in order of preference; `None` if they are more than `most`.
     pub fn list<T: Scalar>(
         &mut self,
         dynamics: &mut Dynamics<T>,
         here: SwitchContext<'_, T>,
         rows: &OutputMask,
         scratch: &mut Mode,
+        most: usize,
     ) -> Option<&Candidates> {
         let looked = look_at_slips(dynamics, here, rows);
         let composite = |guard: &Guard| matches!(guard, Guard::Composite(_));
@@ -179,17 +183,18 @@ impl Listings {
             list.order.clear();
             let mut listing = Listing {
                 choices,
+                most,
                 out: &mut list.modes,
             };
             scratch.clone_from(here.present);
             listing.contacts(scratch, 0);
-            if list.modes.len() <= MOST_CANDIDATES {
+            if list.modes.len() <= most {
                 list.facts = follows.then(|| Facts::of(here, &self.grips));
             }
             self.oldest
         });
         let list = &mut self.facts[index];
-        (list.modes.len() <= MOST_CANDIDATES).then(|| {
+        (list.modes.len() <= most).then(|| {
             list.sort(here);
             &*list
         })
@@ -334,6 +339,8 @@ impl<T: Scalar> Choices<'_, T> {
 /// Writes down modes, choice after choice.
 struct Listing<'a, T: Scalar> {
     choices: Choices<'a, T>,
+    /// More are not written down.
+    most: usize,
     out: &'a mut Pool<Mode>,
 }
 
@@ -343,7 +350,7 @@ impl<T: Scalar> Listing<'_, T> {
         if c == mode.contacts.len() {
             return self.frictions(mode, 0);
         }
-        if self.out.len() > MOST_CANDIDATES {
+        if self.out.len() > self.most {
             return;
         }
         if self.choices.here.facts.touching[c] {
@@ -366,7 +373,7 @@ impl<T: Scalar> Listing<'_, T> {
             count += 1;
         });
         for &state in &states[..count] {
-            if self.out.len() > MOST_CANDIDATES {
+            if self.out.len() > self.most {
                 return;
             }
             mode.frictions[f] = state;
@@ -376,7 +383,7 @@ impl<T: Scalar> Listing<'_, T> {
 
     /// Branch `b` on both sides, where its guard vanishes.
     fn branches(&mut self, mode: &mut Mode, b: usize) {
-        if self.out.len() > MOST_CANDIDATES {
+        if self.out.len() > self.most {
             return;
         }
         if b == self.choices.description().branches.len() {

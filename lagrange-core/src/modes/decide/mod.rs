@@ -31,7 +31,7 @@ use crate::modes::redundant::RedundantForces;
 use crate::modes::scale::Sizes;
 use crate::modes::table::Table;
 use crate::system::{Constraint, Description};
-use candidates::{Candidates, Listings, MOST_CANDIDATES};
+use candidates::{Candidates, Listings, MOST_CANDIDATES, MOST_OF_ALL};
 use examine::Doubt;
 use incipient::Beginning;
 
@@ -188,8 +188,16 @@ impl<T: Scalar> Decider<T> {
         let mut listings = core::mem::take(&mut self.listings);
         let scratch = &mut self.decision.mode;
         self.tried = 0;
-        let listed = listings.list(dynamics, here, &self.rows, scratch);
+        let mut listed = listings.list(dynamics, here, &self.rows, scratch, MOST_CANDIDATES);
         let mut outcome = self.search(dynamics, table, here, listed);
+        if listed.is_none() && !matches!(outcome, Ok(true)) {
+            // What pivoting does not find is among all of them.
+            let scratch = &mut self.decision.mode;
+            listed = listings.list(dynamics, here, &self.rows, scratch, MOST_OF_ALL);
+            if listed.is_some() {
+                outcome = self.search(dynamics, table, here, listed);
+            }
+        }
         if !matches!(outcome, Ok(true)) {
             // Of a block that slides on three supports in a row, one of which is rough, two carry it.
             self.lies_loosely = true;
@@ -253,7 +261,8 @@ impl<T: Scalar> Decider<T> {
         let time = here.moment.t.value();
         let mut listings = core::mem::take(&mut self.listings);
         self.sized = false;
-        let listed = listings.list(dynamics, here, &self.rows, &mut self.decision.mode);
+        let scratch = &mut self.decision.mode;
+        let listed = listings.list(dynamics, here, &self.rows, scratch, MOST_CANDIDATES);
         let Some(candidates) = listed else {
             self.listings = listings;
             return Err(Error::Limit {
