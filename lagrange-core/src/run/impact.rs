@@ -108,8 +108,10 @@ impl<T: Scalar> Run<T> {
                 Normal::Contact(_) | Normal::Constraint(_) | Normal::Resultant(_) => {
                     outcome.sticks[f] || sticks_on || self.rests_after(outcome, f)
                 }
-                // No impulse acts there, but the impact may have begun or ended its slip.
-                Normal::Given(_) => self.rests_after(outcome, f),
+                // No impulse acts there, but the impact may have begun or ended its slip. What sticks on is left with the error of the step.
+                Normal::Given(_) => {
+                    facts.resting[f] && !self.slip_jumps(outcome, f) || self.rests_after(outcome, f)
+                }
             };
         }
         // Velocities have jumped: what was located for the old ones says nothing about the new.
@@ -120,17 +122,29 @@ impl<T: Scalar> Run<T> {
 
     /// Whether the slip of friction `f` vanishes after an impact.
     fn rests_after(&self, outcome: &Impact<T>, f: usize) -> bool {
-        let friction = &self.description().frictions[f];
-        friction.rows().all(|row| {
-            let (mut slip, mut size) = self.rate(row);
-            let jacobian = self.description().rows[row].jacobian.iter();
-            for &(j, place) in jacobian {
-                let jump = (outcome.v[j] - self.recorder.before.state.v[j]).value();
-                let part = self.dynamics.motion(place).value() * jump;
-                slip += part;
-                size += part.abs();
-            }
-            slip.abs() <= rounding::<T>(ROUNDING) * size
+        self.description().frictions[f].rows().all(|row| {
+            let (slip, size) = self.rate(row);
+            let (jump, parts) = self.jump(outcome, row);
+            (slip + jump).abs() <= rounding::<T>(ROUNDING) * (size + parts)
+        })
+    }
+
+    /// Whether an impact changes the slip of friction `f`.
+    fn slip_jumps(&self, outcome: &Impact<T>, f: usize) -> bool {
+        self.description().frictions[f].rows().any(|row| {
+            let (_, size) = self.rate(row);
+            let (jump, parts) = self.jump(outcome, row);
+            jump.abs() > rounding::<T>(ROUNDING) * (size + parts)
+        })
+    }
+
+    /// By how much an impact changes the rate of a row, and the size of the terms that make that.
+    fn jump(&self, outcome: &Impact<T>, row: usize) -> (f64, f64) {
+        let jacobian = self.description().rows[row].jacobian.iter();
+        jacobian.fold((0.0, 0.0), |(sum, size), &(j, place)| {
+            let jump = (outcome.v[j] - self.recorder.before.state.v[j]).value();
+            let part = self.dynamics.motion(place).value() * jump;
+            (sum + part, size + part.abs())
         })
     }
 }
