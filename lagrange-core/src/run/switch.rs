@@ -288,7 +288,7 @@ impl<T: Scalar> Run<T> {
             self.leave_regions(hit, facts);
         }
         if hit {
-            self.rest_where_impact_leaves_nothing(facts)?;
+            self.rest_where_impact_leaves_nothing(facts);
             self.take_sides_after_impact(facts);
         }
         // What leaves an edge may be on another surface, and where a surface bends by a branch it may come to rest where a body is.
@@ -301,8 +301,8 @@ impl<T: Scalar> Run<T> {
         }
         self.note_edges_held(facts);
         if !hit {
-            self.rest_where_slip_vanishes(facts)?;
-            self.rest_with_what_comes_to_rest(facts)?;
+            self.rest_where_slip_vanishes(facts);
+            self.rest_with_what_comes_to_rest(facts);
         }
         self.balance_what_is_held(facts);
         Ok(hit)

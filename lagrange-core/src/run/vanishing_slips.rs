@@ -14,10 +14,7 @@ use crate::trajectory::State;
 impl<T: Scalar> Run<T> {
     /// A contact that closes without impact carries frictions whose slip nobody has looked at, and may end slips that its rate is
     /// part of: a stop that carries what rubs against it.
-    pub(super) fn rest_where_slip_vanishes(
-        &mut self,
-        facts: &mut SwitchFacts,
-    ) -> Result<(), Error> {
+    pub(super) fn rest_where_slip_vanishes(&mut self, facts: &mut SwitchFacts) {
         let d = self.description();
         let closes = facts.arriving.contains(&true);
         let wakes = |run: &Self, facts: &SwitchFacts, f: usize| {
@@ -27,24 +24,20 @@ impl<T: Scalar> Run<T> {
                 && run.dynamics.effects().includes(d, Item::Friction(f))
         };
         if !(0..d.frictions.len()).any(|f| wakes(self, facts, f)) {
-            return Ok(());
+            return;
         }
         self.hold_velocities();
-        self.evaluate_all_rows()?;
+        self.tape_of_all_rows();
         for f in 0..d.frictions.len() {
             if wakes(self, facts, f) {
                 facts.resting[f] = self.slip_vanishes(f);
             }
         }
-        Ok(())
     }
 
     /// What comes to rest may end other slips of which it leaves nothing: the brake of one axle stops the car, and with it the locked wheels
     /// of the other one. Their zeros are one instant, which drift from the rows that act tears apart.
-    pub(super) fn rest_with_what_comes_to_rest(
-        &mut self,
-        facts: &mut SwitchFacts,
-    ) -> Result<(), Error> {
+    pub(super) fn rest_with_what_comes_to_rest(&mut self, facts: &mut SwitchFacts) {
         let comes = |guard: &&Guard| matches!(guard, Guard::Slip(_));
         let slips = |f: &usize| {
             matches!(self.now.mode.frictions[*f], FrictionMode::Slip(_)) && !facts.resting[*f]
@@ -55,14 +48,11 @@ impl<T: Scalar> Run<T> {
         if coming > 0 {
             ending.extend((0..facts.resting.len()).filter(slips));
         }
-        self.rest_among(ending, coming > 1, facts)
+        self.rest_among(ending, coming > 1, facts);
     }
 
     /// A slip after an impact may be the error of rows that hold on: of a box that lands in the corner of a floor and a wall that move together.
-    pub(super) fn rest_where_impact_leaves_nothing(
-        &mut self,
-        facts: &mut SwitchFacts,
-    ) -> Result<(), Error> {
+    pub(super) fn rest_where_impact_leaves_nothing(&mut self, facts: &mut SwitchFacts) {
         let d = self.description();
         let rubs = |f: &usize| {
             let friction = &d.frictions[*f];
@@ -76,18 +66,15 @@ impl<T: Scalar> Run<T> {
         if facts.touching.contains(&true) {
             ending.extend((0..d.frictions.len()).filter(rubs));
         }
-        self.rest_among(ending, false, facts)
+        self.rest_among(ending, false, facts);
     }
 
     /// Which of these slips are the errors of rows, and rest; whether several others do that are errors of rows to one another.
-    fn rest_among(
-        &mut self,
-        mut ending: Vec<usize>,
-        several: bool,
-        facts: &mut SwitchFacts,
-    ) -> Result<(), Error> {
+    fn rest_among(&mut self, mut ending: Vec<usize>, several: bool, facts: &mut SwitchFacts) {
         if !ending.is_empty() {
-            self.evaluate_all_rows()?;
+            // In no mode: velocities that have jumped may contradict the present one.
+            self.tape_of_all_rows();
+            self.now.valued = false;
         }
         ending.retain(|&f| {
             self.rates_of_slip(f)
@@ -97,7 +84,6 @@ impl<T: Scalar> Run<T> {
             self.rest_if_nothing_is_left(&ending, several, facts);
         }
         self.switcher.ending = ending;
-        Ok(())
     }
 
     /// Which of these slips vanish once all that rests sticks, and what touches stays closed. If one does, or `several` others do, the velocities
@@ -172,7 +158,8 @@ impl<T: Scalar> Run<T> {
         let State { q, v, .. } = &mut self.now.state;
         let held = self.dynamics.project_velocities(self.now.t, q, v, &[], 0.0);
         held.map_err(|e| self.error(e))?;
-        self.evaluate_all_rows()
+        self.tape_of_all_rows();
+        Ok(())
     }
 
     /// Whether the slip of friction `f` is zero beside the terms that make it.
