@@ -32,6 +32,25 @@ impl<T: Scalar> Run<T> {
         self.dynamics.tape(self.now.t, q, v);
     }
 
+    /// What the numbers of all rows say at a state beside the present one: `later` by so much, with each coordinate changed by a function of its index
+    /// and velocity.
+    pub(super) fn beside<R>(
+        &mut self,
+        later: T,
+        change: impl Fn(usize, T) -> T,
+        read: impl FnOnce(&Self) -> R,
+    ) -> R {
+        self.ask_for_all_rows();
+        let beside = &mut self.stepper.scratch;
+        beside.clone_from(&self.now.state);
+        for (j, (q, &v)) in beside.q.iter_mut().zip(&beside.v).enumerate() {
+            *q += change(j, v);
+        }
+        self.dynamics.tape(self.now.t + later, &beside.q, &beside.v);
+        self.now.valued = false;
+        read(self)
+    }
+
     /// What the numbers of all rows at the present state say in the mode before a change and in that after it, which `dynamics` is left in.
     pub(super) fn on_both_sides<R>(
         &mut self,

@@ -89,21 +89,14 @@ impl<T: Scalar> Run<T> {
     /// Whether a region and the gap of another contact, which vanish here, vanish together: one changes in proportion to the other, whichever way the state
     /// and the time change.
     fn vanish_together(&mut self, region: ValueRef, by: usize) -> bool {
+        let read = |run: &Self| [run.dynamics.motion(region).value(), run.gap(by)];
+        self.tape_of_all_rows();
+        let here = read(self);
         let mut first = None;
         (0..WAYS).all(|way| {
-            let [before, after] = [0.0, SOON].map(|part| {
-                let beside = &mut self.stepper.scratch;
-                beside.clone_from(&self.now.state);
-                let along = |j: usize| T::from_f64(part * ((j + WAYS * way) as f64).cos());
-                for (j, q) in beside.q.iter_mut().enumerate() {
-                    *q += along(j + 1);
-                }
-                self.dynamics.set_extra_needs(&self.switcher.status.needs);
-                self.dynamics
-                    .tape(self.now.t + along(0), &beside.q, &beside.v);
-                [self.dynamics.motion(region).value(), self.gap(by)]
-            });
-            let share = (after[0] - before[0]) / (after[1] - before[1]);
+            let along = |j: usize| T::from_f64(SOON * ((j + WAYS * way) as f64).cos());
+            let there = self.beside(along(0), |j, _| along(j + 1), read);
+            let share = (there[0] - here[0]) / (there[1] - here[1]);
             let known = *first.get_or_insert(share);
             (share - known).abs() <= ALIKE * known.abs()
         })
@@ -229,19 +222,10 @@ impl<T: Scalar> Run<T> {
         let State { q, v, .. } = &self.now.state;
         let (extent, speed) = (1.0 + largest(q), largest(v).max(1.0));
         let soon = T::from_f64(SOON * extent / speed);
-        let beside = &mut self.stepper.scratch;
-        beside.clone_from(&self.now.state);
-        for (q, &v) in beside.q.iter_mut().zip(v) {
-            *q += soon * v;
-        }
-        self.dynamics.set_extra_needs(&self.switcher.status.needs);
-        let mut at = |t, state: &State<T>| {
-            self.dynamics.tape(t, &state.q, &state.v);
-            self.dynamics.motion(place).value()
-        };
-        let changes = at(self.now.t + soon, beside) - at(self.now.t, &self.now.state);
-        self.now.valued = false;
-        changes < -SOON * SOON * extent
+        let read = |run: &Self| run.dynamics.motion(place).value();
+        let there = self.beside(soon, |_, v| soon * v, read);
+        self.tape_of_all_rows();
+        there - read(self) < -SOON * SOON * extent
     }
 
     /// What is hit where a surface ends, to rounding, is hit there: the floor of a room ends at its walls.
