@@ -94,7 +94,9 @@ impl<T: Scalar> Run<T> {
         let here = read(self);
         let mut first = None;
         (0..WAYS).all(|way| {
-            let along = |j: usize| T::from_f64(SOON * ((j + WAYS * way) as f64).cos());
+            // Roots, of which no sum is a multiple of another: cosines of an even spacing have means that are.
+            let phase = |j: usize| (1 + way) as f64 * (1.0 + j as f64).sqrt();
+            let along = |j: usize| T::from_f64(SOON * phase(j).cos());
             let there = self.beside(along(0), |j, _| along(j + 1), read);
             let share = (there[0] - here[0]) / (there[1] - here[1]);
             let known = *first.get_or_insert(share);
