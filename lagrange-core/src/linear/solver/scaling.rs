@@ -6,6 +6,9 @@
 use super::{Inertia, Solver, UnitQuaternion};
 use crate::arithmetic::{LIGHT, Scalar};
 
+/// A row that is so much smaller than another by what has inertia says nothing about it.
+const NEARLY_NOTHING: f64 = 1e-6;
+
 /// The power of two near 1/√x.
 fn inverse_root(x: f64) -> f64 {
     if x > 0.0 && x.is_finite() {
@@ -51,21 +54,40 @@ impl<T: Scalar> Solver<T> {
             let of = quaternions.find(|of| of.contains(&j));
             let largest = of.map(|of| of.map(inertia).into_iter().fold(0.0, f64::max));
             let inertia = largest.unwrap_or_else(|| inertia(j));
-            self.scale
-                .push(if inertia > 0.0 && (of.is_some() || !self.light[j]) {
-                    inverse_root(inertia)
-                } else {
-                    let column = (0..size).map(|i| self.matrix[i * size + j].value().abs());
-                    let largest = column.fold(0.0, f64::max);
-                    inverse_root(largest * largest)
-                });
+            let heavy = inertia > 0.0 && (of.is_some() || !self.light[j]);
+            self.scale.push(match heavy {
+                true => inverse_root(inertia),
+                false => 0.0,
+            });
+        }
+        // What has no inertia has that of what it moves with. In the place of the scale of a row stands how large it is by all that has some.
+        let of_row = |row: usize, scale: &[f64]| {
+            let scaled = self.matrix[row * size..][..n].iter().zip(scale);
+            let sizes = scaled.map(|(x, scale)| x.value().abs() * scale);
+            sizes.fold(0.0, f64::max)
+        };
+        for row in n..size {
+            self.scale.push(of_row(row, &self.scale));
+        }
+        let rows = &self.scale[n..];
+        let least = NEARLY_NOTHING * rows.iter().copied().fold(0.0, f64::max);
+        for j in 0..n {
+            if self.scale[j] > 0.0 {
+                continue;
+            }
+            let element = |i: usize| self.matrix[i * size + j].value().abs();
+            let rows = (n..size).filter(|&row| self.scale[row] > least);
+            let mut largest = rows
+                .map(|row| element(row) / self.scale[row])
+                .fold(0.0, f64::max);
+            if largest == 0.0 {
+                largest = (0..size).map(element).fold(0.0, f64::max);
+            }
+            self.scale[j] = inverse_root(largest * largest);
         }
         for row in n..size {
-            let scaled = self.matrix[row * size..][..n].iter().zip(&self.scale);
-            let largest = scaled.fold(0.0, |largest, (x, scale)| {
-                f64::max(largest, x.value().abs() * scale)
-            });
-            self.scale.push(inverse_root(largest * largest));
+            let largest = of_row(row, &self.scale);
+            self.scale[row] = inverse_root(largest * largest);
         }
     }
 
