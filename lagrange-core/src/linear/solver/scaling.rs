@@ -49,13 +49,18 @@ impl<T: Scalar> Solver<T> {
         self.find_light();
         self.scale.clear();
         let inertia = |j: usize| self.matrix[j * size + j].value().abs();
+        let by_column = |j: usize| {
+            let column = (0..size).map(|i| self.matrix[i * size + j].value().abs());
+            let largest = column.fold(0.0, f64::max);
+            inverse_root(largest * largest)
+        };
         for j in 0..n {
             let mut quaternions = self.quaternions.iter().map(|of| of.coordinates);
             let of = quaternions.find(|of| of.contains(&j));
             let largest = of.map(|of| of.map(inertia).into_iter().fold(0.0, f64::max));
             let inertia = largest.unwrap_or_else(|| inertia(j));
-            let heavy = inertia > 0.0 && (of.is_some() || !self.light[j]);
-            self.scale.push(match heavy {
+            self.scale.push(match inertia > 0.0 {
+                true if self.light[j] && of.is_none() => by_column(j),
                 true => inverse_root(inertia),
                 false => 0.0,
             });
@@ -77,13 +82,13 @@ impl<T: Scalar> Solver<T> {
             }
             let element = |i: usize| self.matrix[i * size + j].value().abs();
             let rows = (n..size).filter(|&row| self.scale[row] > least);
-            let mut largest = rows
+            let largest = rows
                 .map(|row| element(row) / self.scale[row])
                 .fold(0.0, f64::max);
-            if largest == 0.0 {
-                largest = (0..size).map(element).fold(0.0, f64::max);
-            }
-            self.scale[j] = inverse_root(largest * largest);
+            self.scale[j] = match largest > 0.0 {
+                true => inverse_root(largest * largest),
+                false => by_column(j),
+            };
         }
         for row in n..size {
             let largest = of_row(row, &self.scale);
