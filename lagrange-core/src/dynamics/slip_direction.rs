@@ -367,6 +367,15 @@ impl<T: Scalar> Dynamics<T> {
 
     /// Coefficient `k` of s × u of slip direction `i`; zero where it is rounding, which grows without bound where slips begin smoothly.
     fn crossed(&self, i: usize, k: usize) -> T {
+        let (sum, size) = self.terms_crossed(i, k);
+        match sum.value().abs() <= ROUNDING * size {
+            true => derivatives(sum),
+            false => sum,
+        }
+    }
+
+    /// The same as it is, and the size of its terms.
+    fn terms_crossed(&self, i: usize, k: usize) -> (T, f64) {
         let f = self.beginning(i);
         let (mut sum, mut size) = (T::zero(), 0.0);
         for j in 1..=k {
@@ -375,10 +384,7 @@ impl<T: Scalar> Dynamics<T> {
             sum += cross(s, u);
             size += (dot(s, s) * dot(u, u)).value().sqrt();
         }
-        match sum.value().abs() <= ROUNDING * size {
-            true => derivatives(sum),
-            false => sum,
-        }
+        (sum, size)
     }
 
     /// D, from what a turn of order 1 does to the slip of order 2; and what a friction that grows or turns at the rate 1/s does to it.
@@ -508,7 +514,11 @@ impl<T: Scalar> Dynamics<T> {
         let turns = (0..count).flat_map(|i| self.slip_directions.series[self.beginning(i)]);
         let size = turns.fold(1.0_f64, |m, u| m.max(dot(u, u).value().sqrt()));
         let size = before.iter().fold(size, |m, x| m.max(x.value().abs()));
-        let part = T::from_f64(if k == 1 { SMALL * size } else { size });
+        let terms = (0..count).map(|i| self.terms_crossed(i, k + 2).1);
+        let part = T::from_f64(match k {
+            1 => SMALL * size,
+            _ => terms.fold(size, f64::max),
+        });
         for (row, weights) in open.iter() {
             self.slip_directions.right[row] = -sum(weights, &before);
         }
