@@ -134,10 +134,6 @@ impl<T: Scalar> Run<T> {
         let value = critical
             .as_ref()
             .map(|composite| self.joint_value(composite));
-        let within = looked > 0.0 && self.switcher.redundant.has_open();
-        let (mut last_kept, asks_forces) = (0.0, *corrections >= CORRECTIONS);
-        let within = within && self.finds_joints_within(looked, asks_forces, &mut last_kept);
-        let mut again = within || others;
         let fallen = self
             .locator
             .fallen
@@ -146,6 +142,19 @@ impl<T: Scalar> Run<T> {
                 (Hit::Guards(_), Guard::Composite(k)) => Some(*k),
                 _ => None,
             });
+        let composites = &mut self.locator.polynomials.composites;
+        // Located by the forces themselves: roots of others before it are those of weights that belong to another instant.
+        if let (Some(k), Some(composite), Some(value)) = (fallen, &critical, value)
+            && composites[k].falls_after.is_some()
+            && value.abs() <= ROOT
+        {
+            composites[k].parts.clone_from(&composite.parts);
+            return false;
+        }
+        let within = looked > 0.0 && self.switcher.redundant.has_open();
+        let (mut last_kept, asks_forces) = (0.0, *corrections >= CORRECTIONS);
+        let within = within && self.finds_joints_within(looked, asks_forces, &mut last_kept);
+        let mut again = within || others;
         // The weights of an instant may be none of another.
         let asks_forces = asks_forces && last_kept > 0.0;
         let composites = &mut self.locator.polynomials.composites;
