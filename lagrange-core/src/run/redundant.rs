@@ -224,8 +224,11 @@ impl<T: Scalar> Run<T> {
         // What is nearer to its border than roots are may be what has just ended.
         let redundant = &mut self.switcher.redundant;
         redundant.follow(&mut self.dynamics);
-        let keeps = redundant.has_open() && redundant.critical(ROOT).is_none();
-        let turns = keeps || redundant.turn(&mut self.dynamics, ROOT);
+        let (has_open, critical) = (redundant.has_open(), redundant.critical(BORDER));
+        // Its value, which has been located, is known to less than the margin of the programme.
+        let falls = critical.is_some_and(|composite| self.joint_value(&composite) < ROOT);
+        let keeps = has_open && !falls;
+        let turns = keeps || self.switcher.redundant.turn(&mut self.dynamics, ROOT);
         if turns {
             self.locator.polynomials.composites.clear();
             self.list_guards();
