@@ -302,17 +302,14 @@ impl<T: Scalar> Run<T> {
         margins: &mut Margins,
     ) -> ControlFlow<bool, bool> {
         self.switcher.redundant.follow(&mut self.dynamics);
-        let critical = self.switcher.redundant.critical(NEARBY);
-        let value = critical.as_ref().map(|critical| self.joint_value(critical));
-        margins.note(
-            part,
-            value.unwrap_or(NEARBY),
-            self.switcher.redundant.values(),
-        );
-        let (Some(composite), Some(value)) = (critical, value) else {
+        let redundant = &self.switcher.redundant;
+        let (margin, critical) = redundant.nearest(NEARBY);
+        margins.note(part, margin, redundant.values());
+        let Some(composite) = critical else {
             *last_kept = part;
             return ControlFlow::Continue(false);
         };
+        let value = self.joint_value(&composite);
         let falls = value < -ROOT;
         if !falls {
             *last_kept = part;
