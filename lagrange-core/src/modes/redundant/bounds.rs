@@ -126,9 +126,7 @@ impl<T: Scalar> RedundantForces<T> {
             }
             Normal::Given(place) => coefficient * number(place),
             Normal::Constraint(on) => {
-                let Some(row) = index(d.constraints[on].row) else {
-                    return None;
-                };
+                let row = index(d.constraints[on].row)?;
                 // Only where a force is open its sign is a choice.
                 let own = match self.least.freedom.is_determined(row) {
                     true => self.sign_of_least(row),

@@ -314,3 +314,72 @@ fn feet_that_begin_to_slip_together_do_not_turn() {
         goes_straight(&tripod, 3, [mass, mu, rate, heading]);
     }
 }
+
+/// A disc on three pads that a fast force shakes.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, turn),
+    kinetic = der(x)^2 + der(y)^2 + der(turn)^2/10,
+    friction(a: slip = (der(x + 0.6*cos(turn)), der(y + 0.6*sin(turn))), limit = 1),
+    friction(b: slip = (der(x - 0.3*cos(turn) - 0.4*sin(turn)), der(y - 0.3*sin(turn) + 0.4*cos(turn))), limit = 1),
+    friction(c: slip = (der(x - 0.3*cos(turn) + 0.4*sin(turn)), der(y - 0.3*sin(turn) - 0.4*cos(turn))), limit = 1),
+    force(shake: (strength*sin(rate*t)*cos(angle), strength*sin(rate*t)*sin(angle)) at (x, y)),
+)]
+struct Shaken {
+    strength: f64,
+    rate: f64,
+    angle: f64,
+}
+
+/// All three slip as the force reaches 3 N, and the disc is carried along without a turn: 2 ẍ = F sin ωt − 3. Seconds or milliseconds are all one to it.
+#[test]
+fn pads_begin_to_slip_together_however_fast_they_are_shaken() {
+    for (strength, rate, angle) in [
+        (3.6, 100.0, 0.3),
+        (3.6, 1e4, 2.0),
+        (3.1, 80.0, -0.7),
+        (4.0, 3.0, 1.1),
+    ] {
+        let scene = Shaken {
+            strength,
+            rate,
+            angle,
+        };
+        let slips = f64::asin(3.0 / strength) / rate;
+        let until = 1.5 / rate;
+        let lasts = until - slips;
+        let gone = (strength / rate * f64::cos(rate * slips) * lasts
+            - strength / rate.powi(2) * (f64::sin(rate * until) - f64::sin(rate * slips))
+            - 1.5 * lasts * lasts)
+            / 2.0;
+        for (method, tolerance) in methods_at(["auto", "dop853", "radau5"], [1e-9, 1e-12]) {
+            let what = format!("{scene:?} by {method} at {tolerance:e}");
+            let run = run_by(
+                &scene,
+                (method, tolerance),
+                state(&[0.0; 3], &[0.0; 3]),
+                until,
+            );
+            assert_eq!(words(&run), ["a slips", "b slips", "c slips"], "{what}");
+            agree(
+                &what,
+                event(&run, "a", "slips").time,
+                slips,
+                1e-7 / rate.max(1.0),
+            );
+            agree(
+                &what,
+                run.final_state().q[0],
+                gone * angle.cos(),
+                10.0 * tolerance,
+            );
+            agree(
+                &what,
+                run.final_state().q[1],
+                gone * angle.sin(),
+                10.0 * tolerance,
+            );
+            certified(&what, &run);
+        }
+    }
+}

@@ -759,3 +759,51 @@ fn a_floor_is_there_along_the_wall_that_it_ends_at() {
         }
     }
 }
+
+/// A floor in two parts, and a wall at the end of the second one; along it by u + v, turning by u − v.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(u, y, v),
+    kinetic = der((u + v)/2)^2/2 + der(y)^2/2 + inertia/2*der((u - v)/2)^2,
+    potential = 9.81*y,
+    contact(near: y >= 0, where (u + v)/2 <= seam),
+    contact(far: y >= 0, where (u + v)/2 >= seam),
+    contact(wall: (u + v)/2 <= seam + wide, restitution = bounce),
+    start(go: u = seam - 1, v = seam - 1, der(u) = speed, der(v) = speed),
+)]
+struct Seam {
+    inertia: f64,
+    seam: f64,
+    wide: f64,
+    bounce: f64,
+    speed: f64,
+}
+
+/// At the wall nothing is known of the part that ended half a metre before it.
+#[test]
+fn a_wall_behind_a_seam_brings_nothing_back() {
+    for (seam, wide, bounce, speed) in [
+        (0.0, 0.5, 0.3, 1.0),
+        (2.0, 0.7, 0.0, 1.3),
+        (0.4, 0.25, 1.0, 0.8),
+    ] {
+        let scene = Seam {
+            inertia: 0.01,
+            seam,
+            wide,
+            bounce,
+            speed,
+        };
+        for (method, tolerance) in methods_at(METHODS, [1e-9, 1e-12]) {
+            let what = format!("{scene:?} by {method} at {tolerance:e}");
+            let until = (1.0 + 1.1 * wide) / speed;
+            let run = run_by(&scene, (method, tolerance), scene.at(Seam::GO), until);
+            assert_eq!(
+                lagrange_tests::words(&run),
+                ["near lost", "far closed", "wall impact"],
+                "{what}"
+            );
+            certified(&what, &run);
+        }
+    }
+}

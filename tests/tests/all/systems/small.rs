@@ -80,3 +80,39 @@ fn what_is_open_by_half_a_micrometre_is_open() {
         agree(method, closes / time, 1.0, 1e-6);
     }
 }
+
+/// A pendulum in Cartesian coordinates whose angle has no inertia of its own.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, angle),
+    kinetic = mass/2*(der(x)^2 + der(y)^2),
+    potential = 9.81*mass*y,
+    constraint(across: x == length*sin(angle)),
+    constraint(down: y == -length*cos(angle)),
+    start(out: x = length*sin(1), y = -length*cos(1), angle = 1),
+)]
+struct Bob {
+    mass: f64,
+    length: f64,
+}
+
+/// From the angle 1 its speed at angle φ is √(2 g l (cos φ − cos 1)), in any unit of mass.
+#[test]
+fn an_angle_without_inertia_follows_in_any_unit_of_mass() {
+    for mass in [1e-21, 1e-13, 1.0, 1e15, 1e25] {
+        for (length, method) in [
+            (1.0, "auto"),
+            (0.2, "auto"),
+            (0.7, "dop853"),
+            (2.0, "radau5"),
+        ] {
+            let bob = Bob { mass, length };
+            let run = run_by(&bob, (method, 1e-11), bob.at(Bob::OUT), 0.9);
+            let end = run.final_state();
+            let speed = (2.0 * 9.81 * length * (end.q[2].cos() - f64::cos(1.0))).sqrt();
+            let what = format!("{bob:?} by {method}");
+            agree(&what, (length * end.v[2]).abs(), speed, 1e-8);
+            certified(&what, &run);
+        }
+    }
+}
