@@ -88,6 +88,40 @@ fn what_follows_an_error_of_the_start_is_no_motion() {
     assert_eq!(failure.trajectory.work().steps, 0);
 }
 
+/// A gas whose pressure grows like 1/x³ keeps a piston from the bottom.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2/2,
+    potential(gas: pressure/(2*x^2)),
+    potential(gravity: weight * x),
+    contact(bottom: x >= 0),
+)]
+struct Piston {
+    pressure: f64,
+    weight: f64,
+}
+
+/// From rest x² = 1 + t²; at the bottom forces are infinite, and without the gas the piston rests there.
+#[test]
+fn a_contact_at_a_pole_is_never_reached_or_told() {
+    let run = |x: f64, weight, effects: Effects| {
+        let piston = Piston {
+            pressure: 1.0,
+            weight,
+        };
+        let simulation = Simulation::new(&piston).effects(effects);
+        let run = simulation.run(State::new(vec![x], vec![0.0]), 0.0..3.0);
+        run.map(|run| run.final_state().q[0])
+    };
+    let end = run(1.0, 0.0, Effects::all()).expect("no contact");
+    assert!((end - 10.0_f64.sqrt()).abs() < 1e-8, "{end}");
+    let told = run(0.0, 0.0, Effects::all()).expect_err("no forces").error;
+    assert!(matches!(told, Error::NotFinite { .. }), "{told}");
+    let empty = Effects::all().without(Piston::GAS);
+    assert!(run(0.0, 1.0, empty).is_ok_and(|x| x == 0.0));
+}
+
 /// A ball with friction that meets the floor after √(2/g).
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(

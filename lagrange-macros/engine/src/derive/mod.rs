@@ -85,6 +85,15 @@ impl Equations {
         let terms: Vec<ExprId> = terms.map(|&(_, term)| term).collect();
         pool.sum(&terms)
     }
+
+    /// All terms of what a motion depends on: of all outputs but those that are observed only.
+    pub fn terms_of_motion(&self) -> Vec<ExprId> {
+        let observed = |i: usize| self.structure.observes.iter().any(|(id, _)| id.0 == i);
+        let outputs = self.outputs.iter().enumerate();
+        let outputs = outputs.filter(|(i, _)| !observed(*i));
+        let terms = outputs.flat_map(|(_, output)| &output.terms);
+        terms.map(|&(_, term)| term).collect()
+    }
 }
 
 /// Derives all equations of a system. None if it is structurally singular, which the sink then tells. Where the pool is

@@ -67,7 +67,7 @@ impl Work<'_> {
         Parts {
             mode,
             loaded: mode.loaded_rows(&equations.system),
-            known: modes::pinned(&equations.system, self.reader.pool(), &pins),
+            known: modes::pinned(equations, self.reader.pool(), &pins),
             acting,
             pins,
         }

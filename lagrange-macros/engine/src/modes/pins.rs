@@ -1,7 +1,6 @@
 //! Coordinates that rows hold fixed: q = value, v = 0, v̇ = 0.
 
 use crate::derive::Equations;
-use crate::model::System;
 use crate::symbolic::{ExprId, Pool, Symbol};
 
 /// A row that says coordinate = value.
@@ -47,16 +46,27 @@ pub fn pins(equations: &Equations, pool: &mut Pool, acting: &[usize]) -> Vec<Pin
     pins
 }
 
-/// What pins say of positions, velocities and accelerations.
-pub fn pinned(system: &System, pool: &mut Pool, pins: &[Pin]) -> Vec<(Symbol, ExprId)> {
+/// What pins say of positions, velocities and accelerations. What makes the equations infinite is not said: they keep the symbol, whose value
+/// then tells it in a run that comes to this mode.
+pub fn pinned(equations: &Equations, pool: &mut Pool, pins: &[Pin]) -> Vec<(Symbol, ExprId)> {
     let zero = pool.integer(0);
-    let known = pins.iter().flat_map(|pin| {
-        let item = &system.coordinates[pin.coordinate];
+    let said = pins.iter().flat_map(|pin| {
+        let item = &equations.system.coordinates[pin.coordinate];
         [
             (item.position, pin.value),
             (item.velocity, zero),
             (item.acceleration, zero),
         ]
     });
-    known.collect()
+    let mut known: Vec<(Symbol, ExprId)> = said.collect();
+    for below in pool.what_has_poles(&equations.terms_of_motion()) {
+        let symbols: Vec<Symbol> = known.iter().map(|&(symbol, _)| symbol).collect();
+        if pool.depends_on_any(below, &symbols) {
+            let value = pool.substitute(below, &known);
+            if pool.vanishes(value) {
+                known.retain(|&(symbol, _)| !pool.depends_on(below, symbol));
+            }
+        }
+    }
+    known
 }

@@ -8,7 +8,7 @@ fn equations(items: &str) -> Equations {
     let text = format!(
         "#[lagrange(
             coordinates(x, y, z),
-            kinetic = m/2 * (der(x)^2 + der(y)^2 + der(z)^2),
+            kinetic(point: m/2 * (der(x)^2 + der(y)^2 + der(z)^2)),
             {items}
         )]
         struct Point {{ m: f64, mu: f64, a: f64, b: f64 }}"
@@ -211,7 +211,7 @@ fn pinned_coordinates() {
         let mode = Mode::named(&equations.system, name).expect(name);
         let acting = mode.acting_rows(&equations.system);
         let pins = pins(&equations, &mut pool, &acting);
-        let known = pinned(&equations.system, &mut pool, &pins);
+        let known = pinned(&equations, &mut pool, &pins);
         let print = |(symbol, value)| format!("{} = {}", pool.name(symbol), pool.print(value));
         let positions = known.into_iter().step_by(3);
         positions.map(print).collect::<Vec<_>>().join(", ")
@@ -222,6 +222,119 @@ fn pinned_coordinates() {
     // The second row that fixes y is a row like others, and so are those of two coordinates, of time, and not of unit slope.
     assert_eq!(said("floor closed, roof closed"), "z = b, y = 0");
     assert_eq!(said("slope closed, gate closed, scaled closed"), "z = b");
+}
+
+/// A mode whose place makes something infinite is planned with the place as a number that comes at run time; other places are put in.
+#[test]
+fn places_at_which_something_is_infinite_are_not_put_in() {
+    let ground = "contact(end: x >= 0),";
+    let wall = "contact(end: x <= 1),";
+    let quarter = "contact(end: x <= pi/2),";
+    let half = "contact(end: x <= pi),";
+    let given = "contact(end: x >= a),";
+    let infinite = [
+        (ground, "potential = m * x - mu * ln(x)"),
+        (ground, "potential = 1/x"),
+        (ground, "potential = x^(-2)"),
+        (ground, "potential = x^(-3/2)"),
+        (ground, "potential = sqrt(x)"),
+        (ground, "potential = x^(1/3)"),
+        (ground, "potential = 1/abs(x)"),
+        (ground, "potential = 1/max(x, 0)"),
+        (ground, "potential = sin(x)/x"),
+        (ground, "potential = 1/tan(x)"),
+        (ground, "potential = 1/atan(x) + 1/tanh(x)"),
+        (ground, "potential = 1/(1 - cosh(x))"),
+        (ground, "potential = 1/(exp(x) - 1)"),
+        (ground, "potential = exp(1/x)"),
+        (ground, "potential = 1/((x + a + b) * m - a * m - b * m)"),
+        (ground, "kinetic(more: mu * der(y)^2/x)"),
+        (ground, "kinetic(more: mu * der(x)^2/x)"),
+        (ground, "force(push: y = ln(x))"),
+        (ground, "force(push: y = x * ln(x))"),
+        (ground, "force(push: y = der(x)/x)"),
+        (ground, "force(push: y = 1/(x^2 + a * x))"),
+        (ground, "force(push: y = end/x)"),
+        (ground, "dissipation(drag: der(y)^2/x)"),
+        (ground, "stop(near: 1/x >= 10)"),
+        (ground, "mark(near: der(der(y))/x >= 10)"),
+        (
+            ground,
+            "friction(rub on end: slip = der(y), static = 1/x, kinetic = mu)",
+        ),
+        (
+            ground,
+            "friction(rub on end: slip = der(y), static = mu, kinetic = 1/x)",
+        ),
+        (ground, "friction(brake: slip = der(y), limit = 1/x)"),
+        (ground, "contact(other: y >= 0, where 1/x >= 3)"),
+        (ground, "constraint(hyperbola: y == 1/x)"),
+        ("constraint(end: x == 0),", "potential = 1/x"),
+        (quarter, "potential = 1/cos(x)"),
+        (half, "potential = 1/sin(x)"),
+        (wall, "potential = 1/(1 - x)"),
+        (wall, "potential = ln(1 - x)"),
+        (wall, "potential = acos(x)"),
+        (wall, "potential = asin(x)"),
+        (wall, "force(push: x = -der(x)/(1 - x))"),
+        (given, "potential = ln(x - a)"),
+        (given, "potential = 1/(x^2 - a^2)"),
+    ];
+    let finite = [
+        (ground, "potential = 1/(x + a)"),
+        (ground, "potential = abs(x)"),
+        (ground, "potential = x^(3/2)"),
+        (ground, "potential = cos(x) + tan(x) + atan2(x, 1)"),
+        (ground, "force(push: y = sqrt(x) + sign(x))"),
+        (ground, "observe(inverse = 1/x)"),
+        (wall, "potential = 1/x"),
+        (given, "potential = ln(x)"),
+    ];
+    let put_in = |end: &str, items: &str| {
+        let mut equations = equations(&format!("{end}{items},"));
+        let mut pool = std::mem::take(&mut equations.system.pool);
+        let mut mode = Mode::open(&equations.system);
+        mode.contacts
+            .iter_mut()
+            .take(1)
+            .for_each(|closed| *closed = true);
+        let acting = mode.acting_rows(&equations.system);
+        let pins = pins(&equations, &mut pool, &acting);
+        let held: Vec<usize> = pins.iter().map(|pin| pin.coordinate).collect();
+        assert_eq!(held, [0], "{end} {items}");
+        let known = pinned(&equations, &mut pool, &pins);
+        let place = equations.system.coordinates[0].position;
+        known.iter().any(|&(symbol, _)| symbol == place)
+    };
+    for (end, items) in infinite {
+        assert!(!put_in(end, items), "{end} {items}");
+    }
+    for (end, items) in finite {
+        assert!(put_in(end, items), "{end} {items}");
+    }
+}
+
+/// Two places that make something infinite together are both left, and so is a velocity; the others are put in.
+#[test]
+fn only_what_makes_something_infinite_is_not_put_in() {
+    let items = "
+        contact(floor: y >= 0), contact(wall: x >= 0), constraint(held: z == b),
+        potential = 1/(x + y),
+        force(thrust: z = 1/der(y)),";
+    let mut equations = equations(items);
+    let mut pool = std::mem::take(&mut equations.system.pool);
+    let mut said = |name: &str| {
+        let mode = Mode::named(&equations.system, name).expect(name);
+        let acting = mode.acting_rows(&equations.system);
+        let pins = pins(&equations, &mut pool, &acting);
+        let known = pinned(&equations, &mut pool, &pins);
+        let names = known.iter().map(|&(symbol, _)| pool.name(symbol));
+        let rates = names.filter(|name| !name.starts_with("der(der"));
+        rates.collect::<Vec<_>>().join(" ")
+    };
+    assert_eq!(said(""), "z der(z)");
+    assert_eq!(said("floor closed"), "z der(z) y");
+    assert_eq!(said("floor closed, wall closed"), "z der(z) der(x)");
 }
 
 /// Of one constraint that carries two frictions the sign is chosen once.

@@ -98,20 +98,27 @@ impl Pool {
 
     /// Whether something in it is infinite for all values of the symbols: a negative power of 0, or its logarithm.
     pub fn has_pole(&self, e: ExprId) -> bool {
-        let mut found = false;
-        self.visit(
-            e,
-            |_| false,
-            |node| {
-                found |= match node {
-                    Node::Product(factors) => factors
+        let delicate = self.what_has_poles(&[e]);
+        delicate.into_iter().any(|e| self.is_zero(e))
+    }
+
+    /// What the roots have under negative powers and in logarithms: where it is 0, they are infinite.
+    pub fn what_has_poles(&self, roots: &[ExprId]) -> Vec<ExprId> {
+        let mut found = Vec::new();
+        for e in self.iter_reachable(roots) {
+            match self.node(e) {
+                Node::Product(factors) => {
+                    let below = factors
                         .iter()
-                        .any(|&(base, exponent)| exponent.is_negative() && self.is_zero(base)),
-                    Node::Call(Function::Ln, arguments) => self.is_zero(arguments[0]),
-                    _ => false,
+                        .filter(|(_, exponent)| exponent.is_negative());
+                    found.extend(below.map(|&(base, _)| base));
                 }
-            },
-        );
+                Node::Call(Function::Ln, arguments) => found.push(arguments[0]),
+                _ => {}
+            }
+        }
+        found.sort_unstable();
+        found.dedup();
         found
     }
 

@@ -2,6 +2,7 @@
 
 use super::{Refused, TEMPLATE, scene, type_name};
 use crate::request::Request;
+use lagrange_core::prelude::Error;
 
 #[test]
 fn names_of_files_become_names_of_types() {
@@ -485,6 +486,36 @@ fn what_a_parameter_may_be_is_kept_by_the_file_and_the_struct() {
     assert!(
         wrong.is_err_and(|refused| refused.to_string().contains("`positive` or `nonnegative`"))
     );
+}
+
+/// A gas whose pressure grows like 1/x³ never lets a piston come to the bottom: x² = 1 + t². Who begins there is told that forces are infinite,
+/// and who leaves the gas out comes to rest.
+#[test]
+fn a_contact_at_a_pole_is_never_reached_or_told() {
+    let text = "coordinates(x), kinetic = der(x)^2/2, potential(gas: 1/(2*x^2)), potential(gravity: weight * x),
+        parameters(weight nonnegative = 0), contact(bottom: x >= 0),
+        start(free: x = 1), start(pressed), until = 3,";
+    let piston = scene("piston.lagrange", text).expect("a declaration");
+    let run = |request: Request| piston.run(&request).expect("a run");
+    let expands = run(Request::default());
+    let x = expands.samples.last().expect("an end").state.q[0];
+    assert!(
+        expands.failure.is_none() && (x - 10.0_f64.sqrt()).abs() < 1e-8,
+        "{x}"
+    );
+    let pressed = Request {
+        from: Some("pressed".to_owned()),
+        ..Request::default()
+    };
+    let told = run(pressed.clone()).failure.expect("no forces");
+    assert!(matches!(told, Error::NotFinite { .. }), "{told}");
+    let empty = run(Request {
+        parameters: vec![("weight".to_owned(), 1.0)],
+        effects: vec![("gas".to_owned(), false)],
+        ..pressed
+    });
+    let end = empty.samples.last().expect("an end");
+    assert!(empty.failure.is_none() && end.state.q == [0.0], "{end:?}");
 }
 
 /// A crank of 0.1 m turns a slotted arm whose foot is 0.3 m below: it turns back where the crank is at right angles to it, at

@@ -1,7 +1,7 @@
 //! Modes: how they are found, how many are shown, and their solutions.
 
 use super::{derivation, scenes};
-use crate::inspect::formula::Relation;
+use crate::inspect::formula::{Relation, Statement};
 use crate::inspect::print;
 use quote::quote;
 
@@ -41,6 +41,30 @@ fn modes_are_found_by_name() {
     assert_eq!((all.modes.len(), all.mode_count), (4, 4));
     let bounce = print::text::statement(all.impacts[0].equations.last().expect("a law"));
     assert_eq!(bounce, "y\u{307}⁺ = −½ y\u{307}⁻");
+}
+
+/// A place that makes a force infinite is no number in it.
+#[test]
+fn a_mode_at_a_pole_keeps_its_letter() {
+    let tokens = quote! {
+        #[lagrange(
+            coordinates(x, y),
+            kinetic = m/2 * (der(x)^2 + der(y)^2),
+            potential = m * g * (x + y) - k * ln(x),
+            contact(bottom: x >= 0),
+            contact(floor: y >= 0),
+        )]
+        struct Piston { m: f64, g: f64, k: f64 }
+    };
+    let closed = "bottom closed, floor closed";
+    let mode = crate::inspect(tokens, Some(closed)).expect("a mode");
+    let lines = |statements: &[Statement]| -> Vec<String> {
+        statements.iter().map(print::text::statement).collect()
+    };
+    let mode = &mode.modes[0];
+    assert_eq!(lines(&mode.known), ["x = 0", "y = 0"]);
+    let equations = ["N_bottom = m g − k/x", "N_floor = m g"];
+    assert_eq!(lines(&mode.equations), equations);
 }
 
 /// 3³ modes without a contact: one without slip, and two for each friction that slips alone.

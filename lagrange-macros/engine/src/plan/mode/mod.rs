@@ -115,7 +115,7 @@ fn specialise(
     let acting = mode.acting_rows(&equations.system);
     let mut pool = std::mem::take(&mut equations.system.pool);
     let pins = modes::pins(equations, &mut pool, &acting);
-    let known = modes::pinned(&equations.system, &mut pool, &pins);
+    let known = modes::pinned(equations, &mut pool, &pins);
     equations.system.pool = pool;
     let state = super::inputs(&equations.system, Stage::Motion);
     let balances = balance::balances(equations, mode, &acting, &known, signs)?;
