@@ -220,7 +220,7 @@ impl<T: Scalar> Run<T> {
     /// resolves: nothing is located in it, and the next step begins on the side on which the guards then are.
     ///
     /// # Errors
-    /// Beyond the break a guard is no number, or a gap or the guard of a branch has jumped below zero; or there is one break
+    /// Beyond the break a guard is infinite or no number, or a gap or the guard of a branch has jumped below zero; or there is one break
     /// after the other.
     fn pass_break(&mut self) -> Result<Hit, Error> {
         self.stepper.breaks += 1;
@@ -232,7 +232,7 @@ impl<T: Scalar> Run<T> {
         if let Some((guard, before, after)) = curves.hold(dynamics, &self.now.mode) {
             let d = self.description();
             let item = guard.name(d).unwrap_or(d.name);
-            return Err(if after.is_nan() {
+            return Err(if !after.is_finite() {
                 self.not_finite(&format!("the guard of `{item}`"))
             } else {
                 Error::Discontinuous {

@@ -362,7 +362,7 @@ impl GuardPolynomials {
     }
 
     /// Makes the guards stay what they are at the start of the step. The first that must not be what it is in the values that
-    /// `dynamics` holds: no number, or, of a gap or a branch, below zero; with what it was and is.
+    /// `dynamics` holds: infinite or no number, or, of a gap or a branch, below zero; with what it was and is.
     pub(super) fn hold<T: Scalar>(
         &mut self,
         dynamics: &mut Dynamics<T>,
@@ -380,7 +380,7 @@ impl GuardPolynomials {
             curve[1..].fill(0.0);
             let one_sided = matches!(guard, Guard::Gap(_) | Guard::Branch(_));
             let falls = value < -rounding && curve[0] >= 0.0;
-            if value.is_nan() || one_sided && falls {
+            if !value.is_finite() || one_sided && falls {
                 broken = broken.or(Some((guard, curve[0], value)));
             }
         }
