@@ -26,7 +26,7 @@ pub fn expand(input: TokenStream) -> TokenStream {
     let declaration = parse::declaration(input.clone(), &mut sink);
     let program = declaration
         .as_ref()
-        .and_then(|declaration| planned(declaration, &mut sink));
+        .and_then(|declaration| of_struct(declaration, &mut sink));
     match (&declaration, program) {
         (Some(declaration), Some((mut program, verdicts))) if sink.is_empty() => {
             let declared = model::declared(declaration);
@@ -78,7 +78,7 @@ pub fn program(input: TokenStream) -> Result<Program, Diagnostics> {
 pub fn checked(input: TokenStream) -> Result<(Program, Vec<Verdict>), Diagnostics> {
     let mut sink = Diagnostics::new();
     let declaration = parse::declaration(input, &mut sink);
-    match declaration.and_then(|declaration| planned(&declaration, &mut sink)) {
+    match declaration.and_then(|declaration| of_struct(&declaration, &mut sink)) {
         Some(found) if sink.is_empty() => Ok(found),
         _ => Err(sink),
     }
@@ -98,8 +98,8 @@ pub struct FromFile {
     pub places: Vec<(String, usize, usize)>,
     /// The struct with its `#[lagrange(…)]` that declares the same; [`inspect()`] and [`readable`] read it.
     pub declaration: String,
-    /// A Rust file with that struct, its derive and its default values.
-    pub rust: String,
+    /// A Rust file with that struct, its derive and its default values; none where names would become one constant there.
+    pub rust: Result<String, Diagnostics>,
 }
 
 /// Derives the system that a text declares; `name` is that of the system, an identifier.
@@ -128,15 +128,26 @@ fn from_file(text: &str, name: &str, sink: &mut Diagnostics) -> Option<FromFile>
         }
         Some(seconds)
     });
+    let mut clashes = Diagnostics::new();
+    emit::clashes(&file.declaration, &mut clashes);
     Some(FromFile {
         tables: emit::tables(&program, &model::declared(&file.declaration)),
         declaration: emit::declared_struct(&file, text),
-        rust: emit::export(&file, text, &defaults),
+        rust: match clashes.is_empty() {
+            true => Ok(emit::export(&file, text, &defaults)),
+            false => Err(clashes),
+        },
         places: file.declaration.places(),
         starts: program.starts,
         defaults,
         until,
     })
+}
+
+/// The program of a struct, whose names become constants.
+fn of_struct(declaration: &Declaration, sink: &mut Diagnostics) -> Option<(Program, Vec<Verdict>)> {
+    emit::clashes(declaration, sink);
+    planned(declaration, sink)
 }
 
 fn planned(declaration: &Declaration, sink: &mut Diagnostics) -> Option<(Program, Vec<Verdict>)> {

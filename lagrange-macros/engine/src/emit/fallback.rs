@@ -1,10 +1,11 @@
 //! What stands beside the errors of a declaration: an `impl System` that type-checks, so that one mistake does not
 //! become an error at every use of the struct.
 
+use super::constants::{constants, screaming};
 use super::derivation;
 use super::handles::{self, Indices};
 use super::names;
-use crate::ast::{Declaration, Head, ItemKind, Name, Observe};
+use crate::ast::Declaration;
 use crate::sorted::SortedSet;
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -28,74 +29,21 @@ pub fn fallback(input: TokenStream, declaration: Option<&Declaration>) -> TokenS
 fn placeholders(declaration: &Declaration, core: &TokenStream) -> TokenStream {
     // How many elements an indexed item has is not known here: enough for every index that is used.
     let many = [0; 1024];
-    let mut constants = Vec::new();
-    let mut taken = SortedSet::new();
-    let mut add = |kind: &str, name: &Name, indexed: bool| {
-        let constant = handles::screaming(&name.ident);
-        if taken.insert(constant.to_string()) {
-            let indices = if indexed {
-                Indices::Many(&many)
-            } else {
-                Indices::One(0)
+    let (mut handles, mut taken) = (Vec::new(), SortedSet::new());
+    for constant in constants(declaration) {
+        let name = screaming(&constant.name.ident);
+        if taken.insert(name.to_string()) {
+            let indices = match constant.indexed {
+                true => Indices::Many(&many),
+                false => Indices::One(0),
             };
-            constants.push(handles::handle(
-                core,
-                &constant,
-                kind,
-                indices,
-                "Not derived.",
-            ));
+            let text = "Not derived.";
+            handles.push(handles::handle(core, &name, constant.kind, indices, text));
         }
-    };
-    for item in &declaration.items {
-        let (kind, head): (_, &Head) = match &item.kind {
-            ItemKind::Coordinates(coordinates) => {
-                coordinates
-                    .iter()
-                    .for_each(|one| add("CoordinateId", &one.name, one.length.is_some()));
-                continue;
-            }
-            ItemKind::Attitude(attitude) => {
-                add("CoordinateId", &attitude.coordinates, true);
-                continue;
-            }
-            ItemKind::Observe(observes) => {
-                for observe in observes {
-                    match observe {
-                        Observe::Known(name) => add("ObserveId", name, false),
-                        Observe::New(head, _) => add("ObserveId", &head.name, head.index.is_some()),
-                    }
-                }
-                continue;
-            }
-            ItemKind::Kinetic(energy) => match &energy.head {
-                Some(head) => ("KineticId", head),
-                None => continue,
-            },
-            ItemKind::Potential(energy) => match &energy.head {
-                Some(head) => ("PotentialId", head),
-                None => continue,
-            },
-            ItemKind::Define(_)
-            | ItemKind::Lagrangian(_)
-            | ItemKind::Impacts(_)
-            | ItemKind::Emit(_)
-            | ItemKind::Check(_)
-            | ItemKind::Draw(_) => continue,
-            ItemKind::Constraint(item) => ("ConstraintId", &item.head),
-            ItemKind::Contact(item) => ("ContactId", &item.head),
-            ItemKind::Friction(item) => ("FrictionId", &item.head),
-            ItemKind::Force(item) => ("ForceId", &item.head),
-            ItemKind::Dissipation(item) => ("DissipationId", &item.head),
-            ItemKind::Start(item) => ("StartId", &item.head),
-            ItemKind::Stop(item) => ("StopId", &item.head),
-            ItemKind::Mark(item) => ("MarkId", &item.head),
-        };
-        add(kind, &head.name, head.index.is_some());
     }
     let name = &declaration.name;
     let arguments = declaration.scalar.as_ref().map(|_| quote!(<f64>));
-    let mut tokens = handles::inherent(quote!(#name #arguments), &constants);
+    let mut tokens = handles::inherent(quote!(#name #arguments), &handles);
     tokens.extend(derivation::nothing(quote!(#name #arguments), core));
     tokens
 }

@@ -1,6 +1,7 @@
 //! Handles: one associated constant for each named item, `MassOnWheel::RIM`, with its equation as documentation.
 
-use crate::model::{CONSTANTS, ItemName, Normal, System, shouting};
+use super::constants::{OF_SYSTEMS, OUTPUT, screaming};
+use crate::model::{ItemName, Normal, System};
 use crate::plan::Program;
 use crate::sorted::SortedSet;
 use proc_macro2::{Ident, TokenStream};
@@ -26,7 +27,7 @@ pub fn handles(program: &Program) -> TokenStream {
     let arguments = system.scalar.as_ref().map(|_| quote!(<f64>));
     let items = items(system);
     let mut constants = Vec::new();
-    let mut taken: SortedSet<String> = CONSTANTS.map(str::to_owned).into_iter().collect();
+    let mut taken: SortedSet<String> = OF_SYSTEMS.map(str::to_owned).into_iter().collect();
     let mut rest = &items[..];
     while let Some(first) = rest.first() {
         // The elements of an indexed item follow each other.
@@ -46,8 +47,7 @@ pub fn handles(program: &Program) -> TokenStream {
             .element
             .map_or(Indices::One(first.index), |_| Indices::Many(&indices));
         let constant = screaming(ident);
-        // An output may observe a coordinate or an item under its own name, and may be called as a constant of all systems is.
-        if taken.insert(constant.to_string()) || first.kind != "ObserveId" {
+        if taken.insert(constant.to_string()) || first.kind != OUTPUT {
             constants.push(handle(core, &constant, first.kind, indices, &first.text));
         }
     }
@@ -147,7 +147,7 @@ fn items(system: &System) -> Vec<Handle<'_>> {
     items.extend(of("MarkId", "Mark", &s.marks, |mark| {
         (&mark.name, nothing())
     }));
-    items.extend(of("ObserveId", "Output", &s.observes, |o| {
+    items.extend(of(OUTPUT, "Output", &s.observes, |o| {
         (&o.name, is(o.value))
     }));
     items
@@ -170,11 +170,4 @@ fn of<'a, T>(
             text,
         }
     })
-}
-
-/// `muStatic` and `mu_static` → `MU_STATIC`; `r#static` → `STATIC`.
-pub(super) fn screaming(ident: &Ident) -> Ident {
-    let text = ident.to_string();
-    let name = shouting(text.strip_prefix("r#").unwrap_or(&text));
-    Ident::new(&name, ident.span())
 }

@@ -3,6 +3,7 @@
 //! The only place that uses `quote`.
 
 mod checks;
+mod constants;
 mod declared;
 mod derivation;
 mod description;
@@ -25,6 +26,7 @@ use crate::plan::Program;
 use proc_macro2::TokenStream;
 use quote::quote;
 
+pub use constants::clashes;
 pub use derivation::{derivation, on_request as derivation_on_request};
 pub use export::{declared_struct, export};
 pub use fallback::fallback;

@@ -99,7 +99,6 @@ impl<'a> Elaboration<'a> {
             system,
             sink,
             names: Names::new(),
-            handles: SortedMap::new(),
             indices: Vec::new(),
             slip: None,
             branches: SortedMap::new(),

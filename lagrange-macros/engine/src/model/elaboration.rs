@@ -14,8 +14,6 @@ pub(super) struct Elaboration<'a> {
     pub system: System,
     pub sink: &'a mut Diagnostics,
     pub names: Names,
-    /// Names by the constant that they become.
-    pub handles: SortedMap<String, String>,
     /// Bound indices, innermost last.
     pub indices: Vec<(String, i64)>,
     /// What `slip` stands for: the slip of the friction whose coefficients are read.
@@ -78,7 +76,6 @@ impl<'a> Elaboration<'a> {
             system,
             sink,
             names: scope.names,
-            handles: SortedMap::new(),
             indices: Vec::new(),
             slip: None,
             depths: scope.depths,

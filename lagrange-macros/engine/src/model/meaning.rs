@@ -55,11 +55,6 @@ impl Kind {
             Kind::Contact | Kind::Constraint | Kind::Friction | Kind::Force
         )
     }
-
-    /// Whether its name becomes a constant of the struct. An output whose constant is taken goes without.
-    pub fn has_handle(self) -> bool {
-        !matches!(self, Kind::Field | Kind::Definition | Kind::Output)
-    }
 }
 
 /// What a name stands for.

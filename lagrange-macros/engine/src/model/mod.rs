@@ -51,7 +51,7 @@ pub use defaults::{defaults, number};
 pub use draws::{Draw, Turn};
 pub use elaborate::{in_body_rates, scoped, system};
 pub use elaboration::Scope;
-pub(crate) use names::{CONSTANTS, shouting};
+pub(crate) use names::shouting;
 
 /// A mechanical system with all names resolved.
 pub struct System {

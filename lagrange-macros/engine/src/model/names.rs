@@ -34,9 +34,6 @@ const RESERVED: &[&str] = &[
     "in",
 ];
 
-/// Constants that systems have beside the handles of their items.
-pub(crate) const CONSTANTS: [&str; 3] = ["CHECKS", "DECLARATION", "DESCRIPTION"];
-
 impl Elaboration<'_> {
     /// Enters a name; a reserved word or second use of a name is reported. Where the word is then used as a name, nothing more is said.
     pub fn enter(&mut self, name: &Name, kind: Kind, meaning: Meaning) -> Option<()> {
@@ -51,22 +48,6 @@ impl Elaboration<'_> {
             self.sink
                 .report(Code::DuplicateName, name, &[&text, &first.kind.text()]);
             return None;
-        }
-        if kind.has_handle() || kind == Kind::Output {
-            let handle = shouting(text);
-            // An output that is called as a constant of all systems has no handle.
-            if kind.has_handle() && CONSTANTS.contains(&handle.as_str()) {
-                self.sink
-                    .report(Code::ConstantOfSystems, name, &[&text, &handle]);
-            }
-            match self.handles.get(&handle) {
-                Some(first) => self
-                    .sink
-                    .report(Code::HandleClash, name, &[&text, first, &handle]),
-                None => {
-                    self.handles.insert(handle, text.to_string());
-                }
-            }
         }
         self.names.insert(text.to_string(), Entry { kind, meaning });
         Some(())

@@ -4,7 +4,7 @@ use super::Trouble;
 use super::output::{file, put, ready};
 use super::run_args::scene;
 use crate::catalogue::Catalogue;
-use crate::file::ENDING;
+use crate::file::{ENDING, export, read};
 use crate::format::named;
 use crate::names::nearest;
 use clap::{Args, ValueEnum};
@@ -86,9 +86,14 @@ impl Inspect {
         let tokens: proc_macro2::TokenStream = declaration.parse().map_err(Trouble::failed)?;
         let text = match (format, &self.mode) {
             (Format::Rust, None) => {
-                let text = lagrange_engine::readable(tokens);
-                match scene.name().ends_with(ENDING) {
-                    true => format!("{INTERPRETED}\n{text}"),
+                let (path, text) = (scene.name(), lagrange_engine::readable(tokens));
+                match path.ends_with(ENDING) {
+                    true => {
+                        // Names that would become one constant are told where they stand.
+                        let exported = read(path).and_then(|text| export(path, &text));
+                        exported.map_err(Trouble::usage)?;
+                        format!("{INTERPRETED}\n{text}")
+                    }
                     false => text,
                 }
             }

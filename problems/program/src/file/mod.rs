@@ -117,11 +117,13 @@ pub struct Exported {
 /// The struct that declares what the text of a file declares.
 ///
 /// # Errors
-/// What it declares has mistakes.
+/// What it declares has mistakes, or names that become one constant of the struct.
 pub fn export(path: &str, text: &str) -> Result<Exported, Refused> {
     let found = derived(path, text)?;
     Ok(Exported {
-        rust: found.rust,
+        rust: found
+            .rust
+            .map_err(|found| Refused::Mistakes(Mistakes::new(path, unmarked(text), &found)))?,
         system: type_name(path),
         until: found.until.unwrap_or(UNTIL),
     })
@@ -143,9 +145,14 @@ pub fn read(path: &str) -> Result<String, Refused> {
     })
 }
 
+/// A text without the mark that some editors write at its beginning.
+fn unmarked(text: &str) -> &str {
+    text.strip_prefix('\u{feff}').unwrap_or(text)
+}
+
 /// What the engine makes of a text. A panic of the engine is a bug, never the user's mistake.
 fn derived(path: &str, text: &str) -> Result<FromFile, Refused> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let text = unmarked(text);
     let derive = || lagrange_engine::file(text, &type_name(path));
     match catch_unwind(AssertUnwindSafe(derive)) {
         Ok(Ok(found)) => Ok(found),

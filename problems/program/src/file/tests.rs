@@ -488,6 +488,52 @@ fn what_a_parameter_may_be_is_kept_by_the_file_and_the_struct() {
     );
 }
 
+/// A block X on the floor that a wedge's mass x slides on, with names as textbooks have them: in a file no name becomes a constant, and
+/// the motion is that of other names. Only the struct that `export` writes has constants.
+#[test]
+fn names_may_differ_in_case_only() {
+    let text = "parameters(M = 2, m = 1, g = 9.81),
+coordinates(X, x),
+kinetic = M/2 * der(X)^2 + m/2 * ((der(X) + der(x))^2 + der(x)^2),
+potential = -m * g * x,
+force(F: X = 3),
+friction(f: slip = der(X), limit = 1),
+start(s: der(x) = 0.1), start(S: der(X) = 0.1),
+observe(w = X + x, W = X - x), stop(end: x >= 1),";
+    let others = text.replace('X', "block").replace("f:", "floor:");
+    let others = others
+        .replace("S:", "second:")
+        .replace("W =", "difference =");
+    let end = |text: &str, start: &str| {
+        let system = scene("wedge.lagrange", text).expect("a declaration");
+        let request = Request {
+            from: Some(start.to_owned()),
+            ..Request::default()
+        };
+        let outcome = system.run(&request).expect("a run");
+        assert!(outcome.failure.is_none());
+        outcome.samples.last().expect("an end").state.clone()
+    };
+    let same = |[a, b]: [lagrange_core::prelude::State<f64>; 2]| a.q == b.q && a.v == b.v;
+    assert!(same([end(text, "s"), end(&others, "s")]));
+    assert!(same([end(text, "S"), end(&others, "second")]));
+    let system = scene("wedge.lagrange", text).expect("a declaration");
+    let tokens: proc_macro2::TokenStream = system.derivation().declaration.parse().expect("tokens");
+    let shown = lagrange_engine::inspect(tokens, None).expect("a derivation");
+    let shown = lagrange_engine::inspect::print::plain(&shown);
+    assert!(shown.contains("2 m x\u{308} + m X\u{308} = m g"), "{shown}");
+    let Err(refused) = super::export("wedge.lagrange", text) else {
+        panic!("a struct with two constants X");
+    };
+    let told = refused.to_string();
+    let first = "wedge.lagrange:2:16: `x` and `X` become one constant, `X`";
+    assert!(
+        told.starts_with(first) && told.contains("`f` and `F`"),
+        "{told}"
+    );
+    assert!(super::export("wedge.lagrange", &others).is_ok());
+}
+
 /// A gas whose pressure grows like 1/x³ never lets a piston come to the bottom: x² = 1 + t². Who begins there is told that forces are infinite,
 /// and who leaves the gas out comes to rest.
 #[test]
