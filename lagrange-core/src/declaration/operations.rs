@@ -1,8 +1,9 @@
 //! The operations that declared values are made of, and what they alone tell of the values: which of them may grow or jump where a series does
 //! not show it.
 
-use super::series::{ACOS, ASIN, COSH, EXP, SINH, TANH};
+use super::series::{ACOS, ASIN, ATAN, COSH, EXP, SINH, TAN, TANH};
 use super::{BYTES, Declaration, op};
+use core::f64::consts::{PI, TAU};
 use std::collections::BTreeMap;
 
 #[derive(Clone, Copy, Debug)]
@@ -144,10 +145,21 @@ impl Operations {
         self.list.iter().filter(grows).map(|o| o.value)
     }
 
-    /// The angles that jump by 2π at a cut, those of `atan2`.
-    pub(crate) fn angles(&self) -> impl Iterator<Item = usize> {
-        let angles = self.list.iter().filter(|o| o.code == op::ATAN2);
-        angles.map(|o| o.value)
+    /// The angles that jump, and by how much: those of `atan2` by 2π at a cut, and those of `atan` by π where their argument has a pole.
+    pub(crate) fn angles(&self) -> impl Iterator<Item = (usize, f64)> {
+        self.list.iter().filter_map(|o| match o.code {
+            op::ATAN2 => Some((o.value, TAU)),
+            _ if o.function() == Some(ATAN) && self.has_poles(o.x) => Some((o.value, PI)),
+            _ => None,
+        })
+    }
+
+    /// Whether a value may be infinite between finite ones: a tangent is in it, or what is divided by.
+    fn has_poles(&self, value: usize) -> bool {
+        self.within([value]).list.iter().any(|o| match o.code {
+            op::POWER => self.exponent(o) < 0.0,
+            _ => o.function() == Some(TAN),
+        })
     }
 
     /// The arguments of `asin` and `acos`, which have a corner where these are ±1.
@@ -171,11 +183,12 @@ impl Operations {
         bases.into_iter().filter(turns)
     }
 
-    /// Whether values, or their gradients, may jump where no branch says so: at the cut of an `atan2`, at the ends of `asin` and `acos`, or where what a
-    /// root is taken of vanishes.
+    /// Whether values, or their gradients, may jump where no branch says so: at the cut of an `atan2`, at the ends of `asin` and `acos`, where what a
+    /// root is taken of vanishes, or at the poles of what `atan`, `tanh` and `exp` have different limits for on both sides.
     pub(crate) fn may_jump(&self) -> bool {
         self.list.iter().any(|o| match o.code {
             _ if matches!(o.function(), Some(ASIN | ACOS)) => true,
+            _ if matches!(o.function(), Some(ATAN | TANH | EXP)) => self.has_poles(o.x),
             op::ATAN2 => true,
             op::POWER => self.exponent(o).fract() != 0.0,
             _ => false,

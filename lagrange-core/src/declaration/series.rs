@@ -69,8 +69,10 @@ impl<N: Real> Mul for Series<N> {
 }
 
 /// Numbers of functions.
+pub(super) const TAN: u32 = 2;
 pub(super) const ASIN: u32 = 3;
 pub(super) const ACOS: u32 = 4;
+pub(super) const ATAN: u32 = 5;
 pub(super) const SINH: u32 = 6;
 pub(super) const COSH: u32 = 7;
 pub(super) const TANH: u32 = 8;
@@ -90,7 +92,7 @@ pub(super) fn function<N: Real>(number: u32, x: N) -> [N; 4] {
             let (s, c) = x.sin_cos();
             [c, minus(s), minus(c), s]
         }
-        2 => {
+        TAN => {
             let t = x.tan();
             let u = n(1.0) + square(t);
             let third = n(2.0) * u * (n(1.0) + n(3.0) * square(t));

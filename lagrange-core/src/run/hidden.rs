@@ -8,7 +8,7 @@
 //! So with a power, whose exponent is n ln|x|: atoms that fly at one another from afar feel nothing of (s/r)¹² until they touch, and a step over
 //! r = 0 sees nothing of it at all; and sin⁴⁰t is nothing where it begins.
 //!
-//! An angle `atan2` that passes its cut jumps by 2π, which its series does not know. Where it has come back at the end of a step nothing there
+//! An angle `atan2` that passes its cut jumps by 2π, and `atan` by π at a pole of its argument, which their series do not know. Where it has come back at the end of a step nothing there
 //! tells of it: the step ends beyond the cut instead, where accelerations show that they have jumped.
 //!
 //! A root √x², as |v| of a body that turns back, goes on as −x in its series. Where x passes zero twice nothing tells of it at the end of the step:
@@ -85,10 +85,12 @@ enum Border {
     Most(f64),
 }
 
-/// A value of `atan2`.
+/// A value of `atan2`, or of `atan`.
 #[derive(Debug)]
 struct Angle {
     value: usize,
+    /// How far its values lie apart at most, by which it jumps.
+    range: f64,
     /// The angle and its change over a piece, at the beginning of the piece.
     before: Ends,
     /// How often it has jumped up, less how often it has jumped down.
@@ -122,16 +124,17 @@ impl Hidden {
             (base, Function::Power { exponent, largest })
         });
         let mut arguments: Vec<(usize, Function)> = exponentials.chain(powers).collect();
-        let mut angles: Vec<usize> = acting.angles().collect();
+        let mut angles: Vec<(usize, f64)> = acting.angles().collect();
         let arcs = acting.arcs().map(|base| (base, true));
         let roots = acting.roots().map(|base| (base, false));
         let mut roots: Vec<(usize, bool)> = roots.chain(arcs).collect();
         let bases = roots.iter().map(|(base, _)| base);
         let wanted = arguments.iter().map(|(argument, _)| argument);
-        let wanted = wanted.chain(&angles).chain(bases).copied();
+        let wanted = wanted.chain(angles.iter().map(|(angle, _)| angle));
+        let wanted = wanted.chain(bases).copied();
         let evaluator = Evaluator::new(system.declaration(), &system.parameters(), wanted);
         arguments.retain(|&(argument, _)| evaluator.follows_state(argument));
-        angles.retain(|&angle| evaluator.follows_state(angle));
+        angles.retain(|&(angle, _)| evaluator.follows_state(angle));
         roots.retain(|&(base, _)| evaluator.follows_state(base));
         if arguments.is_empty() && angles.is_empty() && roots.is_empty() {
             return None;
@@ -142,8 +145,9 @@ impl Hidden {
             before: [0.0; 2],
             border: None,
         });
-        let angles = angles.into_iter().map(|value| Angle {
+        let angles = angles.into_iter().map(|(value, range)| Angle {
             value,
+            range,
             before: [0.0; 2],
             jumps: 0.0,
             beyond: None,
@@ -222,7 +226,7 @@ impl Hidden {
             }
             for angle in &mut self.angles {
                 let after = ends(&self.evaluator, angle.value);
-                if let Some((s, jumps)) = passes_cut(angle.before, after) {
+                if let Some((s, jumps)) = passes_cut(angle.range, angle.before, after) {
                     angle.jumps += jumps;
                     angle.beyond.get_or_insert(((n - 1) as f64 + s) * piece);
                 }

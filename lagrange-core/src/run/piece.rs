@@ -1,7 +1,5 @@
 //! What a number does in a piece of a step, as a cubic: from its values and its changes over the piece at both ends.
 
-use core::f64::consts::{PI, TAU};
-
 /// A value at an end of a piece, and its change over the piece at the rate there.
 pub(super) type Ends = [f64; 2];
 
@@ -46,15 +44,15 @@ pub(super) fn passes_zero(before: Ends, after: Ends) -> bool {
     misfit(-1.0) < misfit(1.0)
 }
 
-/// Where an angle is beyond its cut in a piece, and how often it has jumped up there: once, or −1 times, or not where it has come back.
-pub(super) fn passes_cut(before: Ends, after: Ends) -> Option<(f64, f64)> {
+/// Where an angle between ±`range`/2 is beyond its cut in a piece, and how often it has jumped up there: once, or −1 times, or not where it has come back.
+pub(super) fn passes_cut(range: f64, before: Ends, after: Ends) -> Option<(f64, f64)> {
     let grows = (before[1] + after[1]) / 2.0;
-    let jumps = ((after[0] - before[0] - grows) / TAU).round();
+    let jumps = ((after[0] - before[0] - grows) / range).round();
     if jumps != 0.0 {
         return Some((1.0, jumps));
     }
     let mut extremes = extremes(before, after);
-    extremes.find_map(|(s, z)| (z.abs() > PI).then_some((s, 0.0)))
+    extremes.find_map(|(s, z)| (2.0 * z.abs() > range).then_some((s, 0.0)))
 }
 
 /// Where the slope of the cubic with these values and changes at both ends of a piece vanishes in it, and its values there.
@@ -76,20 +74,30 @@ pub(super) fn extremes(
 
 #[cfg(test)]
 mod tests {
-    use super::{PI, TAU, extremes, least_size, passes_cut, passes_zero};
+    use super::{extremes, least_size, passes_cut, passes_zero};
+    use core::f64::consts::{PI, TAU};
 
     #[test]
     fn angles_pass_their_cut_at_an_end_of_a_piece_or_in_between() {
-        assert_eq!(passes_cut([1.0, 0.5], [1.5, 0.5]), None);
-        assert_eq!(passes_cut([3.0, 0.4], [3.4 - TAU, 0.4]), Some((1.0, -1.0)));
+        assert_eq!(passes_cut(TAU, [1.0, 0.5], [1.5, 0.5]), None);
         assert_eq!(
-            passes_cut([-3.0, -0.4], [TAU - 3.4, -0.4]),
+            passes_cut(TAU, [3.0, 0.4], [3.4 - TAU, 0.4]),
+            Some((1.0, -1.0))
+        );
+        assert_eq!(
+            passes_cut(TAU, [-3.0, -0.4], [TAU - 3.4, -0.4]),
             Some((1.0, 1.0))
         );
         // π − 0.1 + s − s² is highest in the middle, 0.15 beyond the cut.
-        let returns = passes_cut([PI - 0.1, 1.0], [PI - 0.1, -1.0]);
+        let returns = passes_cut(TAU, [PI - 0.1, 1.0], [PI - 0.1, -1.0]);
         assert_eq!(returns, Some((0.5, 0.0)));
-        assert_eq!(passes_cut([PI - 0.3, 1.0], [PI - 0.3, -1.0]), None);
+        assert_eq!(passes_cut(TAU, [PI - 0.3, 1.0], [PI - 0.3, -1.0]), None);
+        // Of an angle between ±π/2 the cut is nearer.
+        assert_eq!(
+            passes_cut(PI, [1.5, 0.4], [1.9 - PI, 0.4]),
+            Some((1.0, -1.0))
+        );
+        assert_eq!(passes_cut(PI, [1.5, 1.0], [1.5, -1.0]), Some((0.5, 0.0)));
     }
 
     #[test]

@@ -72,6 +72,32 @@ fn an_angle_that_passes_its_cut_pulls_the_other_way() {
     }
 }
 
+/// A needle that turns to a line, with either end: by half the angle that the boat's rudder goes by.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(angle),
+    kinetic = der(angle)^2 / 2,
+    force(line: angle = -gain * atan(tan(angle))),
+)]
+struct Needle {
+    gain: f64,
+}
+
+#[test]
+fn a_tangent_that_passes_its_pole_pulls_the_other_way() {
+    for (gain, rate) in [(1.7, 6.0), (1.0, 4.0), (1.0, PI + 1e-3), (1.0, PI - 1e-3)] {
+        let [heading, turning] = steered(gain, rate, 6.5);
+        for (method, tolerance) in methods_at(METHODS, [1e-7, 1e-10]) {
+            let start = state(&[0.0], &[rate / 2.0]);
+            let run = run_by(&Needle { gain }, (method, tolerance), start, 6.5);
+            let State { q, v, .. } = run.final_state();
+            let name = format!("{method} at {tolerance}, gain {gain}, rate {rate}");
+            agree(&name, 2.0 * q[0], heading, 1e3 * tolerance);
+            agree(&name, 2.0 * v[0], turning, 1e3 * tolerance);
+        }
+    }
+}
+
 /// A point slides in a conical funnel without friction, small as seen from above.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
