@@ -10,7 +10,7 @@ use crate::checks::state::signed;
 use crate::declaration::Declaration;
 use crate::dynamics::{Dynamics, OutputMask};
 use crate::error::Error;
-use crate::integrate::{Method, Radau, least_size};
+use crate::integrate::{Radau, least_size};
 use crate::mode::Mode;
 use crate::modes::guard::all_row_needs;
 use crate::modes::redundant::RedundantForces;
@@ -126,10 +126,7 @@ pub(super) fn against<T: Scalar>(
     certificate.looked = chosen.iter().flatten().count();
     examination.steps(&chosen);
     certificate.unevaluated = examination.unevaluated;
-    let promised = !matches!(
-        record.asked.method,
-        Method::RungeKutta4 { .. } | Method::Gauss6 { .. }
-    );
+    let promised = !record.asked.method.has_fixed_steps();
     for mut check in examination.findings.checks {
         if !promised && matches!(check.subject, Subject::Motion | Subject::Joins) {
             check.bound = f64::INFINITY;

@@ -61,6 +61,11 @@ impl Method {
         let fixed = FIXED.iter().map(|(name, _)| *name);
         NAMES.iter().map(|(name, _)| *name).chain(fixed)
     }
+
+    /// Whether its steps are fixed, not chosen by the tolerance.
+    pub(crate) fn has_fixed_steps(self) -> bool {
+        matches!(self, Self::RungeKutta4 { .. } | Self::Gauss6 { .. })
+    }
 }
 
 /// `rk4:0.001`, or `rk4:1e-6` where there would be many zeros.

@@ -4,7 +4,7 @@ use super::hit::Hit;
 use super::{Progress, Run};
 use crate::arithmetic::Scalar;
 use crate::error::Error;
-use crate::integrate::{Integrator, Method};
+use crate::integrate::Integrator;
 use crate::trajectory::State;
 
 /// So many times a step is made shorter because the interpolation of its guards does not hold.
@@ -19,6 +19,12 @@ const PAST: [f64; 2] = [1e-3, 1e-6];
 
 /// A step in which an interpolation vanishes and its guard does not is made shorter by this factor.
 const NO_ROOT: f64 = 0.5;
+
+/// Careful steps begin at this share of what the method would begin with.
+const SHARE: f64 = 0.5;
+
+/// Careful steps grow by this factor at most, where methods have 5 to 10.
+const GROWTH: f64 = 1.5;
 
 /// Steps of so many times the resolution of time are left to Taylor series.
 const KINK: f64 = 1e4;
@@ -50,6 +56,10 @@ impl<T: Scalar> Run<T> {
         // Long steps make derivatives of fast motions grow that have died out.
         let stiff = method.is_stiff() && T::DERIVATIVES == 0;
         let first = first.map_err(|e| self.no_step(e))?;
+        let first = match self.settings.careful {
+            true => self.careful_step(first),
+            false => first,
+        };
         let shown = self.longest_of_slips(first, stiff);
         // Where a slip is about to vanish its direction may follow the forces faster than Taylor series can.
         if shown < first && !(stiff && shown > KINK * self.resolution(first)) {
@@ -97,13 +107,18 @@ impl<T: Scalar> Run<T> {
         self.taylor_step()
     }
 
+    /// A step that is shorter than `h`, which the method would take, where it is the first or has grown fast.
+    fn careful_step(&self, h: f64) -> f64 {
+        match self.stepper.wanted {
+            Some(_) => h.min(GROWTH * self.stepper.made),
+            None => SHARE * h,
+        }
+    }
+
     /// A step with which whole steps meet the end if fixed steps of length `h` do but for rounding: what rounding leaves of the time
     /// would be a step of its own, too short for its accelerations to mean anything.
     fn whole_step(&self, h: f64, longest: f64) -> f64 {
-        let fixed = matches!(
-            self.settings.method,
-            Method::RungeKutta4 { .. } | Method::Gauss6 { .. }
-        );
+        let fixed = self.settings.method.has_fixed_steps();
         let whole = (longest / h).round();
         // Each step ends at a time that is rounded.
         let rounding = whole * self.resolution(longest);

@@ -34,6 +34,9 @@ pub(crate) struct Settings {
     /// Per coordinate: errors of its position and its velocity are relative above this size and absolute below; empty: 1 for all.
     pub sizes: Vec<f64>,
     pub method: Method,
+    /// Whether steps begin and grow more slowly than the method has it: how fast they may grow is the same at all tolerances, so that two runs could
+    /// begin with the same steps, and with the same errors.
+    pub careful: bool,
     pub project_start: bool,
     /// What evaluates the equations of motion.
     pub equations: Equations,

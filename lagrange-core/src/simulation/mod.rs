@@ -86,6 +86,7 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
                 absolute: Vec::new(),
                 sizes: Vec::new(),
                 method: Method::Auto,
+                careful: false,
                 project_start: false,
                 equations: Equations::Emitted,
                 record: true,

@@ -3,6 +3,9 @@
 //! Let the second run have a hundredth of the tolerance. As long as errors fall with the tolerance, the difference of the two is
 //! the error of the first, to a percent. Unlike defects that are carried along variational equations this needs nothing but to
 //! run again: switches, impacts and accumulations are in it, and so is rounding, which the second run meets in another way.
+//!
+//! Where a run or a phase begins, steps grow as fast as a method lets them, which is the same at all tolerances. The second run is careful there, or it
+//! would make the same steps and the same error.
 
 use super::runner::Work;
 use crate::arithmetic::{Scalar, epsilon};
@@ -76,12 +79,16 @@ impl Settings {
         }
     }
 
-    /// What a run is compared with: one at a tighter tolerance, or a looser one where there is no tighter.
+    /// What a run is compared with: one at a tighter tolerance, or a looser one where there is no tighter, with other steps in any case.
     fn second<T: Scalar>(&self) -> Settings {
         let tighter = self.finer::<T>(TIGHTER);
-        match tighter.is_as_fine_as(self) {
-            true => self.finer::<T>(10.0),
+        let second = match tighter.is_as_fine_as(self) {
+            true => self.finer::<T>(LOOSER),
             false => tighter,
+        };
+        Settings {
+            careful: !self.method.has_fixed_steps(),
+            ..second
         }
     }
 

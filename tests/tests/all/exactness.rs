@@ -119,6 +119,40 @@ fn an_estimate_is_the_error() {
     }
 }
 
+/// A wheel at rest that a torque begins to turn: φ = t − sin t.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(phi),
+    kinetic = der(phi)^2 / 2,
+    force(torque: phi = sin(t)),
+    start(rests),
+)]
+struct Wheel {}
+
+/// Steps that grow as fast as a method lets them are the same at all tolerances; those of the run that the first is compared with are not.
+#[test]
+fn an_estimate_of_a_short_run_is_none_of_equal_steps() {
+    let scene = Wheel {};
+    for method in ["dop853", "dopri5", "verner98", "radau5"] {
+        let simulation = Simulation::new(&scene).method(method.parse().expect("a method"));
+        for tolerance in [1e-3, 1e-4, 1e-6] {
+            let simulation = simulation.clone().tolerance(tolerance).estimate(true);
+            for until in [1.3, 2.0, 2.6, 3.3, 3.996] {
+                let run = simulation.run(scene.at(Wheel::RESTS), 0.0..until);
+                let run = run.expect("runs");
+                let (q, v) = (&run.final_state().q, &run.final_state().v);
+                let (sin, cos) = f64::sin_cos(until);
+                let off = |x: f64, exact: f64| (x - exact).abs() / exact.max(1.0);
+                let error = off(q[0], until - sin).max(off(v[0], 1.0 - cos));
+                let told = run.estimate().expect("was asked for").difference.error();
+                let ratio = told / error;
+                let case = format!("{method} at {tolerance} until {until}: {told:e}, {error:e}");
+                assert!((0.5..2.0).contains(&ratio), "{case}");
+            }
+        }
+    }
+}
+
 /// Whether an estimate is asked for besides, before or after, changes nothing of the error that a run is to be within.
 #[test]
 fn an_error_asked_for_stays_so() {
