@@ -24,7 +24,6 @@ mod jumping_slips;
 mod locator;
 pub(crate) mod lockstep;
 mod log;
-mod margins;
 mod piece;
 mod reach;
 mod redundant;

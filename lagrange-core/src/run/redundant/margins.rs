@@ -43,8 +43,8 @@ impl Margins {
         place.checked_sub(1).map_or(0.0, |k| self.known[k].part)
     }
 
-    /// Whether the first margin could be one that comes after a dip.
-    pub fn bends_more_than(&self, nothing: f64) -> bool {
+    /// Whether the margin may dip by more than `nothing` between any two of them.
+    pub fn may_dip(&self, nothing: f64) -> bool {
         (0..self.known.len().saturating_sub(1)).any(|k| self.dip(k) > nothing)
     }
 

@@ -5,16 +5,17 @@
 //! changes along the motion, the weights of the guard are taken again at its root until both agree. Where the directions of friction turn so fast
 //! that they never do, the instant at which forces cease to keep all bounds is located by the forces themselves.
 
+mod margins;
+mod within;
+
 use super::Run;
 use super::hit::Hit;
-use super::margins::Margins;
 use crate::arithmetic::Scalar;
 use crate::arithmetic::products::ROW;
 use crate::error::Error;
 use crate::modes::composite::CompositeGuard;
 use crate::modes::guard::Guard;
 use crate::modes::reading::Reading;
-use core::ops::ControlFlow;
 
 /// A composite guard above this (relative) is not about to fall.
 const BORDER: f64 = 1e-3;
@@ -27,12 +28,6 @@ const MOST_CORRECTIONS: usize = 12;
 
 /// After so many the forces themselves are asked where they cease to keep all bounds.
 const CORRECTIONS: usize = 4;
-
-/// Composite guards are also looked for at these parts of a step, at the second and each other one where the directions of forces do not turn.
-const WITHIN: [f64; 7] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875];
-
-/// Composite guards are watched from there on if they have come this near to zero, relative.
-const NEARBY: f64 = 0.5;
 
 /// The last terms of forces in a step are no larger than this share of the first ones.
 const LAST_TERMS: f64 = 1e-6;
@@ -234,110 +229,6 @@ impl<T: Scalar> Run<T> {
             self.list_guards();
         }
         Ok(turns)
-    }
-
-    /// Looks for composite guards at some instants before part `end` of the step, where `dynamics` and `scratch` end again: whether
-    /// there are new ones, or known ones are below zero with weights that are new; or the forces themselves are asked where they cease to keep all bounds.
-    /// `last_kept` is the last of these instants at which they do.
-    fn finds_joints_within(&mut self, end: f64, asks_forces: bool, last_kept: &mut f64) -> bool {
-        let (first, each) = match self.directions_turn() {
-            true => (0, 1),
-            false => (1, 2),
-        };
-        let mut margins = Margins::default();
-        self.note_margin(end, &mut margins);
-        let mut found = false;
-        let mut goes_on = true;
-        let parts = WITHIN.into_iter().skip(first).step_by(each);
-        for part in parts.map(|part| part * end) {
-            if self.evaluate_end(part).is_err() {
-                continue;
-            }
-            match self.finds_a_joint(part, last_kept, end, asks_forces, &mut margins) {
-                ControlFlow::Continue(new) => found |= new,
-                ControlFlow::Break(new) => {
-                    (found, goes_on) = (found || new, false);
-                    break;
-                }
-            }
-        }
-        if goes_on && !found && margins.bends_more_than(ROOT) && self.evaluate_end(0.0).is_ok() {
-            self.switcher.redundant.follow(&mut self.dynamics);
-            self.note_margin(0.0, &mut margins);
-            while !found
-                && let Some(part) = margins.may_dip_at(ROOT)
-                && self.evaluate_end(part).is_ok()
-            {
-                let mut kept = margins.before(part);
-                match self.finds_a_joint(part, &mut kept, end, asks_forces, &mut margins) {
-                    ControlFlow::Continue(new) => found = new,
-                    ControlFlow::Break(new) => {
-                        found = new;
-                        break;
-                    }
-                }
-            }
-        }
-        // What could be evaluated before.
-        _ = self.evaluate_end(end);
-        self.look_at_redundant_forces();
-        found
-    }
-
-    /// Notes by how much forces keep all bounds at this part of the step, at least, where the dynamics have been evaluated.
-    fn note_margin(&self, part: f64, margins: &mut Margins) {
-        let redundant = &self.switcher.redundant;
-        let (margin, _) = redundant.nearest(NEARBY);
-        margins.note(part, margin, redundant.values());
-    }
-
-    /// Looks for a composite guard at this part of the step, where the dynamics have been evaluated: whether it is new; and whether nothing of what comes
-    /// after needs to be looked at. Forces are known to keep all bounds at `last_kept`.
-    fn finds_a_joint(
-        &mut self,
-        part: f64,
-        last_kept: &mut f64,
-        end: f64,
-        asks_forces: bool,
-        margins: &mut Margins,
-    ) -> ControlFlow<bool, bool> {
-        self.switcher.redundant.follow(&mut self.dynamics);
-        let redundant = &self.switcher.redundant;
-        let (margin, critical) = redundant.nearest(NEARBY);
-        margins.note(part, margin, redundant.values());
-        let Some(composite) = critical else {
-            *last_kept = part;
-            return ControlFlow::Continue(false);
-        };
-        let value = self.joint_value(&composite);
-        let falls = value < -ROOT;
-        if !falls {
-            *last_kept = part;
-        }
-        let known = &mut self.locator.polynomials.composites;
-        let place = known.iter().position(|known| known.is_like(&composite));
-        // Where directions of friction turn, what is open cancels at one instant only: the root of such a guard may be none.
-        let refuted = place.is_none() && is_like_one_of(&self.locator.refuted, &composite);
-        if falls && (refuted || asks_forces) {
-            return ControlFlow::Break(self.locates_a_joint([*last_kept, part], end));
-        }
-        let found = match place {
-            None if refuted => false,
-            None => {
-                known.push(composite);
-                true
-            }
-            Some(k) if known[k].falls_after.is_none() => {
-                known[k] = composite;
-                falls
-            }
-            Some(_) => false,
-        };
-        // What comes later has other weights.
-        match falls {
-            true => ControlFlow::Break(found),
-            false => ControlFlow::Continue(found),
-        }
     }
 
     /// Locates where between these parts of the step forces cease to keep all bounds, and adds the composite guard that says so; `dynamics` and
