@@ -154,11 +154,15 @@ impl Operations {
         })
     }
 
-    /// Whether a value may be infinite between finite ones: a tangent is in it, or what is divided by.
+    /// Whether a value may be infinite between finite ones: the tangent of what varies is in it, or what varies is divided by.
     fn has_poles(&self, value: usize) -> bool {
+        let varies = |value: usize| {
+            let mut parts = self.within([value]).list.into_iter();
+            parts.any(|o| matches!(o.code, op::TIME | op::POSITION | op::FORCE | op::LOAD))
+        };
         self.within([value]).list.iter().any(|o| match o.code {
-            op::POWER => self.exponent(o) < 0.0,
-            _ => o.function() == Some(TAN),
+            op::POWER => self.exponent(o) < 0.0 && varies(o.x),
+            _ => o.function() == Some(TAN) && varies(o.x),
         })
     }
 
