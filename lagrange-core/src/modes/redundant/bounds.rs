@@ -69,7 +69,7 @@ impl<T: Scalar> RedundantForces<T> {
             }
         }
         for (f, friction) in d.frictions.iter().enumerate() {
-            if mode.frictions[f] != FrictionMode::Stick {
+            if mode.frictions[f] != FrictionMode::Stick || self.is_idle(f, friction) {
                 continue;
             }
             let Some(i) = index(friction.row) else {

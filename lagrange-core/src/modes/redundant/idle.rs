@@ -7,7 +7,7 @@ use crate::dynamics::Dynamics;
 use crate::mode::FrictionMode;
 use crate::modes::composite::Part;
 use crate::modes::guard::{self, ConePlane, Guard};
-use crate::system::{Normal, ValueRef};
+use crate::system::{Friction, Normal, ValueRef};
 
 /// A force that is not determined, and has been chosen to be nothing.
 #[derive(Clone, Debug)]
@@ -82,6 +82,12 @@ impl<T: Scalar> RedundantForces<T> {
                 }
             }
         }
+    }
+
+    /// Whether all that a friction could hold with has been chosen to be nothing: it keeps its bounds, by no margin.
+    pub(super) fn is_idle(&self, f: usize, friction: &Friction) -> bool {
+        let chosen = self.idle.iter().filter(|idle| idle.friction == f);
+        chosen.count() == friction.components
     }
 
     /// What idle forces add to a sum of forces with these factors, so that it is determined whatever they are: guards of theirs.
