@@ -84,6 +84,9 @@ impl<T: Scalar> Decider<T> {
                 return Ok(true);
             }
         }
+        if self.turn_back(dynamics, &violated) && self.examine_posed(dynamics, table, here)? {
+            return Ok(true);
+        }
         self.violated = violated;
         Ok(false)
     }

@@ -9,6 +9,7 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::linear::{VanishingCombinations, solve_small};
 use crate::mode::{Direction, FrictionMode};
+use crate::modes::exact;
 use crate::modes::facts::{EvaluationPoint, SwitchContext};
 use crate::modes::guard::Guard;
 use crate::modes::redundant::RedundantForces;
@@ -128,6 +129,23 @@ impl<T: Scalar> Decider<T> {
             self.point();
         }
         next.is_some()
+    }
+
+    /// Turns the directions round against which slips begin although the friction has no force there, which would tell them. False: there are none.
+    pub(super) fn turn_back(&mut self, dynamics: &Dynamics<T>, violated: &[Guard]) -> bool {
+        let Beginning {
+            frictions, angles, ..
+        } = &mut self.beginning;
+        let mut turned = false;
+        for (&f, angle) in frictions.iter().zip(angles) {
+            let limit = exact::kinetic_limit(f, &self.posed, dynamics);
+            if limit.value() == 0.0 && violated.contains(&Guard::Slip(f)) {
+                *angle += 0.5 * TAU;
+                turned = true;
+            }
+        }
+        self.point();
+        turned
     }
 
     /// Angles against the forces that would keep the slips at zero; of forces that the motion leaves open the least if they are

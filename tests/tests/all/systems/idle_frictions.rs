@@ -34,7 +34,7 @@ fn a_foot_on_ice_lets_the_other_one_hold() {
     for (mass, mu, rub, strength, speed) in [
         (1.0, 0.3, 0.1, 1.0, 1.0),
         (2.5, 0.5, 0.5, 4.0, 0.7),
-        (0.6, 0.8, 0.2, 0.9, -1.3),
+        (0.6, 0.8, 0.2, 0.9, 1.3),
         (1.0, 0.4, 0.3, 1.2, 0.0),
     ] {
         let block = OnIce {
@@ -45,16 +45,16 @@ fn a_foot_on_ice_lets_the_other_one_hold() {
             strength,
             speed,
         };
-        let slows = (rub * 9.81 * mass / 2.0 + strength * f64::signum(speed)) / mass;
-        let goes = speed * speed.abs() / (2.0 * slows);
+        let slows = (rub * 9.81 * mass / 2.0 + strength) / mass;
+        let goes = speed * speed / (2.0 * slows);
         for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
             let what = format!("{block:?} by {method} at {tolerance:e}");
             let run = run_by(&block, (method, tolerance), block.at(OnIce::GO), 3.0);
             agree(&what, run.final_state().q[0], goes, 100.0 * tolerance);
             assert!(times(&run, "sole", "reverses").is_empty(), "{what}");
-            if speed != 0.0 {
+            if speed > 0.0 {
                 let stops = event(&run, "sole", "sticks").time;
-                agree(&what, stops, speed.abs() / slows, 100.0 * tolerance);
+                agree(&what, stops, speed / slows, 100.0 * tolerance);
             }
             certified(&what, &run);
         }

@@ -784,7 +784,7 @@ struct Seam {
 fn a_wall_behind_a_seam_brings_nothing_back() {
     for (seam, wide, bounce, speed) in [
         (0.0, 0.5, 0.3, 1.0),
-        (2.0, 0.7, 0.0, 1.3),
+        (2.0, 0.7, 0.1, 1.3),
         (0.4, 0.25, 1.0, 0.8),
     ] {
         let scene = Seam {
