@@ -164,3 +164,42 @@ fn worn_pads_do_not_hide_what_the_others_hold() {
         }
     }
 }
+
+/// A plate on two pads that hold, and one that has faded away, pushed and turned ever harder.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, turn),
+    kinetic = (der(x)^2 + der(y)^2)/2 + der(turn)^2/20,
+    friction(left: slip = (der(x), der(y) + arm*der(turn)), limit = strength),
+    friction(right: slip = (der(x), der(y) - arm*der(turn)), limit = strength),
+    friction(faded: slip = (der(x) + 0.5*der(turn), der(y)), limit = max(0, 0.5 - t)),
+    force(push: x = t),
+    force(turns: turn = twist*t),
+)]
+struct Plate {
+    strength: f64,
+    arm: f64,
+    twist: f64,
+}
+
+/// Each pad takes half of the push along and twist/(2 arm) of it across: all slip when √(1/4 + twist²/(4 arm²)) t is what a pad holds.
+#[test]
+fn a_pad_that_has_faded_slips_with_the_others() {
+    for (strength, arm, twist) in [(0.5, 0.4, 0.1), (0.7, 0.3, 0.2), (0.4, 0.5, -0.15)] {
+        let plate = Plate {
+            strength,
+            arm,
+            twist,
+        };
+        let slips = 2.0 * strength / f64::hypot(1.0, twist / arm);
+        for (method, tolerance) in methods_at(METHODS, [1e-9, 1e-12]) {
+            let what = format!("{plate:?} by {method} at {tolerance:e}");
+            let rest = state(&[0.0; 3], &[0.0; 3]);
+            let run = run_by(&plate, (method, tolerance), rest, slips + 0.3);
+            for pad in ["left", "right", "faded"] {
+                agree(&what, event(&run, pad, "slips").time, slips, 1e-7);
+            }
+            certified(&what, &run);
+        }
+    }
+}
