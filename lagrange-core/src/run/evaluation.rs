@@ -33,7 +33,7 @@ impl<T: Scalar> Run<T> {
     }
 
     /// What the numbers of all rows say at a state beside the present one: `later` by so much, with each coordinate changed by a function of its index
-    /// and velocity.
+    /// and velocity. The dynamics are left with those of the present state.
     pub(super) fn beside<R>(
         &mut self,
         later: T,
@@ -48,7 +48,9 @@ impl<T: Scalar> Run<T> {
         }
         self.dynamics.tape(self.now.t + later, &beside.q, &beside.v);
         self.now.valued = false;
-        read(self)
+        let numbers = read(self);
+        self.tape_of_all_rows();
+        numbers
     }
 
     /// What the numbers of all rows at the present state say in the mode before a change and in that after it, which `dynamics` is left in.

@@ -71,12 +71,12 @@ impl<T: Scalar> Run<T> {
         if !facts.touching.contains(&true) || !d.contacts.iter().any(limited) {
             return;
         }
+        self.tape_of_all_rows();
+        self.now.valued = false;
         for (c, contact) in d.contacts.iter().enumerate() {
             let Some(region) = contact.region else {
                 continue;
             };
-            self.tape_of_all_rows();
-            self.now.valued = false;
             let is_at_edge = self.dynamics.motion(region).value().abs() <= self.touching(c);
             let mut others = (0..d.contacts.len()).filter(|&k| k != c && facts.touching[k]);
             self.locator.edges_held[c] = match is_at_edge {
@@ -90,7 +90,6 @@ impl<T: Scalar> Run<T> {
     /// and the time change.
     fn vanish_together(&mut self, region: ValueRef, by: usize) -> bool {
         let read = |run: &Self| [run.dynamics.motion(region).value(), run.gap(by)];
-        self.tape_of_all_rows();
         let here = read(self);
         let mut first = None;
         (0..WAYS).all(|way| {
@@ -226,7 +225,6 @@ impl<T: Scalar> Run<T> {
         let soon = T::from_f64(SOON * extent / speed);
         let read = |run: &Self| run.dynamics.motion(place).value();
         let there = self.beside(soon, |_, v| soon * v, read);
-        self.tape_of_all_rows();
         there - read(self) < -SOON * SOON * extent
     }
 

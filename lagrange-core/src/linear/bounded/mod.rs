@@ -70,11 +70,13 @@ impl<T: Scalar> ForceBounds<T> {
         freedom: &Freedom<T>,
         least_size: impl FnOnce() -> f64,
     ) -> bool {
-        let open = rows.map(|(terms, _)| change(terms, |i| freedom.whole_row(i)));
-        if open.iter().all(|(change, _)| change.amax() <= OPEN) {
+        let changes = rows.map(|(terms, _)| change(terms, |i| freedom.row(i)));
+        let is_open = |(change, _): &(DVector<f64>, f64)| change.amax() > OPEN;
+        let was_open =
+            |(terms, _): &Linear<'_, T>| is_open(&change(terms, |i| freedom.whole_row(i)));
+        if !changes.iter().any(is_open) && !rows.iter().any(was_open) {
             return false;
         }
-        let changes = rows.map(|(terms, _)| change(terms, |i| freedom.row(i)));
         let made_of = rows.iter().map(|(terms, constant)| {
             let terms = terms.iter();
             let parts = terms.map(|&(i, a)| (a * forces[i]).value().abs());

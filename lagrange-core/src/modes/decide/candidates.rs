@@ -64,12 +64,8 @@ impl Candidates {
 
     /// Puts the modes in order, unless they are in that which these guards ask for.
     fn sort(&mut self, here: SwitchContext<'_, impl Copy>) {
-        let overcome = here.facts.located.iter().copied().filter(|guard| {
-            matches!(
-                guard,
-                Guard::StickUpper(_) | Guard::StickLower(_) | Guard::StickCone(_)
-            )
-        });
+        let located = here.facts.located.iter().copied();
+        let overcome = located.filter(|guard| guard.holding().is_some());
         if self.order.len() == self.modes.len()
             && overcome.clone().eq(self.overcome.iter().copied())
         {
@@ -130,12 +126,8 @@ fn rank(mode: &Mode, here: SwitchContext<'_, impl Copy>) -> u128 {
         .located
         .iter()
         .any(|g| matches!(g, Guard::Composite(_)));
-    let holds = |guard: &&Guard| match **guard {
-        Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) => {
-            mode.frictions[f] == FrictionMode::Stick
-        }
-        _ => false,
-    };
+    let sticks_on = |f: usize| mode.frictions[f] == FrictionMode::Stick;
+    let holds = |guard: &&Guard| guard.holding().is_some_and(sticks_on);
     let left_behind = facts.located.iter().filter(holds).count();
     let changes = changes(mode, present);
     let differs = changes > 0 || mode.branches != present.branches;

@@ -79,6 +79,14 @@ impl Guard {
         self.is_force() && !matches!(self, Guard::Composite(_))
     }
 
+    /// The friction that it says how much holds.
+    pub fn holding(self) -> Option<usize> {
+        match self {
+            Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) => Some(f),
+            _ => None,
+        }
+    }
+
     /// The name of the item whose guard it is; a composite guard has several.
     pub fn name(self, d: &'static Description) -> Option<&'static str> {
         match self {

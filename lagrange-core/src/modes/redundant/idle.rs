@@ -26,10 +26,7 @@ pub(super) struct Idle {
 impl Idle {
     /// Whether a guard says how much this friction holds.
     pub fn has(&self, guard: Guard) -> bool {
-        match guard {
-            Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) => f == self.friction,
-            _ => false,
-        }
+        guard.holding() == Some(self.friction)
     }
 
     /// The guards of this friction whose sum is these forces of it, but for what it can hold.

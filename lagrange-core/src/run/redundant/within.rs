@@ -3,6 +3,7 @@
 use super::margins::Margins;
 use super::{ROOT, is_like_one_of};
 use crate::arithmetic::Scalar;
+use crate::modes::composite::CompositeGuard;
 use crate::run::Run;
 use core::ops::ControlFlow::{self, Break, Continue};
 
@@ -88,11 +89,12 @@ impl<T: Scalar> Run<T> {
         false
     }
 
-    /// Notes by how much forces keep all bounds at this part of the step, at least, where the dynamics have been evaluated.
-    fn note_margin(&self, part: f64, margins: &mut Margins) {
+    /// Notes by how much forces keep all bounds at this part of the step, at least, where they have been looked at; the composite guard that tells of it.
+    fn note_margin(&self, part: f64, margins: &mut Margins) -> Option<CompositeGuard> {
         let redundant = &self.switcher.redundant;
-        let (margin, _) = redundant.nearest(NEARBY);
+        let (margin, critical) = redundant.nearest(NEARBY);
         margins.note(part, margin, redundant.values());
+        critical
     }
 
     /// Looks for a composite guard at this part of the step, where the dynamics have been evaluated: whether it is new; and whether nothing of what comes
@@ -105,10 +107,7 @@ impl<T: Scalar> Run<T> {
         margins: &mut Margins,
     ) -> ControlFlow<bool, bool> {
         self.switcher.redundant.follow(&mut self.dynamics);
-        let redundant = &self.switcher.redundant;
-        let (margin, critical) = redundant.nearest(NEARBY);
-        margins.note(part, margin, redundant.values());
-        let Some(composite) = critical else {
+        let Some(composite) = self.note_margin(part, margins) else {
             *last_kept = part;
             return Continue(false);
         };

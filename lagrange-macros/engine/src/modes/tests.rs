@@ -2,6 +2,7 @@
 
 use super::{Mode, all, pinned, pins, structures};
 use crate::derive::Equations;
+use crate::symbolic::{ExprId, Pool, Symbol};
 
 /// Equations of a point in the plane or in space with these items.
 fn equations(items: &str) -> Equations {
@@ -194,6 +195,14 @@ fn rows_that_act_and_rows_with_a_force() {
     }
 }
 
+/// What is put into the equations of the mode of this name.
+fn put_in(equations: &Equations, pool: &mut Pool, name: &str) -> Vec<(Symbol, ExprId)> {
+    let mode = Mode::named(&equations.system, name).expect(name);
+    let acting = mode.acting_rows(&equations.system);
+    let pins = pins(equations, pool, &acting);
+    pinned(equations, pool, &pins)
+}
+
 #[test]
 fn pinned_coordinates() {
     let items = [
@@ -208,10 +217,7 @@ fn pinned_coordinates() {
     let mut equations = equations(&items.concat());
     let mut pool = std::mem::take(&mut equations.system.pool);
     let mut said = |name: &str| {
-        let mode = Mode::named(&equations.system, name).expect(name);
-        let acting = mode.acting_rows(&equations.system);
-        let pins = pins(&equations, &mut pool, &acting);
-        let known = pinned(&equations, &mut pool, &pins);
+        let known = put_in(&equations, &mut pool, name);
         let print = |(symbol, value)| format!("{} = {}", pool.name(symbol), pool.print(value));
         let positions = known.into_iter().step_by(3);
         positions.map(print).collect::<Vec<_>>().join(", ")
@@ -324,10 +330,7 @@ fn only_what_makes_something_infinite_is_not_put_in() {
     let mut equations = equations(items);
     let mut pool = std::mem::take(&mut equations.system.pool);
     let mut said = |name: &str| {
-        let mode = Mode::named(&equations.system, name).expect(name);
-        let acting = mode.acting_rows(&equations.system);
-        let pins = pins(&equations, &mut pool, &acting);
-        let known = pinned(&equations, &mut pool, &pins);
+        let known = put_in(&equations, &mut pool, name);
         let names = known.iter().map(|&(symbol, _)| pool.name(symbol));
         let rates = names.filter(|name| !name.starts_with("der(der"));
         rates.collect::<Vec<_>>().join(" ")
