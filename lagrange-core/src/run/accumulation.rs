@@ -10,6 +10,7 @@
 
 use super::Run;
 use crate::arithmetic::{Scalar, derivatives, rounding};
+use crate::effects::Item;
 use crate::error::Error;
 use crate::mode::FrictionMode;
 use crate::modes::facts::SwitchFacts;
@@ -190,8 +191,10 @@ impl Train {
         (ratio <= SHORTER).then(|| (now - middle) * ratio / (1.0 - ratio))
     }
 
+    /// Whether a contact is one of it: one that is hit at the same instant by chance is not.
     fn has(&self, contact: usize) -> bool {
-        self.hits.iter().any(|(_, c)| *c == contact)
+        let hits = self.hits.iter().filter(|(_, c)| *c == contact);
+        hits.count() >= FEWEST
     }
 }
 
@@ -215,7 +218,7 @@ impl<T: Scalar> Run<T> {
             }
             self.switcher.train.book(self.now.t.value(), c);
             let ended = self.accumulate(c, facts);
-            if let Some((count, remaining)) = ended.or_else(|| self.die_out(facts)) {
+            if let Some((count, remaining)) = ended.or_else(|| self.die_out(c, facts)) {
                 let time = self.now.t;
                 self.switcher.before_holding.clone_from(&self.now.state);
                 let closed = self.close_contacts(c, count, remaining, outcome, facts);
@@ -260,8 +263,8 @@ impl<T: Scalar> Run<T> {
     }
 
     /// The same for contacts that are hit without a law in it.
-    fn die_out(&mut self, facts: &mut SwitchFacts) -> Option<(usize, T)> {
-        if !self.switcher.train.is_long() {
+    fn die_out(&mut self, c: usize, facts: &mut SwitchFacts) -> Option<(usize, T)> {
+        if !(self.switcher.train.is_long() && self.switcher.train.has(c)) {
             return None;
         }
         let remaining = match self.switcher.train.remaining() {
@@ -331,6 +334,50 @@ impl<T: Scalar> Run<T> {
         self.switcher.impacts[c] = Impacts::default();
     }
 
+    /// Moves the state by a flight so short that the accelerations at hand do not change.
+    fn fly(&mut self, lasts: T) {
+        let half = T::from_f64(0.5) * lasts;
+        let State { q, v, .. } = &mut self.now.state;
+        let motion = self.dynamics.acceleration().iter();
+        for ((q, v), &acceleration) in q.iter_mut().zip(v).zip(motion) {
+            let change = lasts * acceleration;
+            *q += lasts * *v + half * change;
+            *v += change;
+        }
+        self.now.t += lasts;
+    }
+
+    /// How long such a flight has been beyond the surfaces of other contacts than those that are `near`: impacts with one side of a groove end where the
+    /// other one begins.
+    fn time_beyond(&self, near: &[usize]) -> T {
+        let d = self.description();
+        let others = (0..d.contacts.len()).filter(|&c| {
+            let takes_part = self.dynamics.effects().includes(d, Item::Contact(c));
+            let open = !(near.contains(&c) || self.now.below[c]);
+            takes_part && open && self.is_in_region(c)
+        });
+        let since = |c: usize| {
+            let row = &d.rows[d.contacts[c].row];
+            let gap = row
+                .position
+                .map_or(T::zero(), |place| self.dynamics.motion(place));
+            let (rate, _) = self.rate(d.contacts[c].row);
+            let beyond = gap.value() < 0.0 && rate < 0.0;
+            if beyond {
+                gap / T::from_f64(rate)
+            } else {
+                T::zero()
+            }
+        };
+        others.map(since).fold(T::zero(), |most, since| {
+            if since.value() > most.value() {
+                since
+            } else {
+                most
+            }
+        })
+    }
+
     /// Makes all impacts that are left in the time `remaining`, and logs it.
     ///
     /// Together they do what a flight of that length does, and an impact without restitution at its end: momentum does not see
@@ -339,7 +386,7 @@ impl<T: Scalar> Run<T> {
         &mut self,
         c: usize,
         count: usize,
-        remaining: T,
+        mut remaining: T,
         outcome: &Impact<T>,
         facts: &mut SwitchFacts,
     ) -> Result<(), Error> {
@@ -357,19 +404,18 @@ impl<T: Scalar> Run<T> {
         }
         self.dynamics.set_mode(&self.switcher.scratch_mode);
         self.evaluate_all_rows()?;
-        let half = T::from_f64(0.5) * remaining;
-        let State { q, v, .. } = &mut self.now.state;
-        let motion = self.dynamics.acceleration().iter();
-        for ((q, v), &acceleration) in q.iter_mut().zip(v).zip(motion) {
-            let change = remaining * acceleration;
-            *q += remaining * *v + half * change;
-            *v += change;
-        }
-        self.now.t += remaining;
+        self.fly(remaining);
         self.evaluate_all_rows()?;
+        let beyond = self.time_beyond(&near);
+        if beyond.value() > 0.0 && beyond.value() <= remaining.value() {
+            self.fly(-beyond);
+            self.evaluate_all_rows()?;
+            remaining -= beyond;
+        }
         let time = self.now.t.value();
         (self.switcher.collider).bring_to_rest(&self.dynamics, time, &self.now.state.v, &near)?;
         let rest = core::mem::take(&mut self.switcher.collider.rest);
+        let half = T::from_f64(0.5) * remaining;
         let State { q, v, .. } = &mut self.now.state;
         for ((q, v), &after) in q.iter_mut().zip(v).zip(&rest.v) {
             *q += half * (after - *v);

@@ -114,6 +114,7 @@ impl<T: Scalar> Run<T> {
     fn meet_hit(&mut self, hit: Hit, end: f64) -> Result<(), Error> {
         match hit {
             Hit::Nothing | Hit::Turned(_) => {
+                self.note_edges_at(end);
                 if self.slips_come_to_rest(end) {
                     self.count_switch()?;
                     self.leave_stiffness();

@@ -52,21 +52,14 @@ impl<T: Scalar> Run<T> {
     /// so that differences of them are off as well.
     fn jacobian_beside(&mut self, f: usize, units: f64) -> f64 {
         let d = self.description();
-        let beside = &mut self.stepper.scratch;
-        beside.clone_from(&self.now.state);
-        let extent = beside
-            .q
-            .iter()
-            .fold(1.0_f64, |size, q| size.max(q.value().abs()));
-        for (j, q) in beside.q.iter_mut().enumerate() {
-            *q += T::from_f64(units * f64::EPSILON * extent * (1.0 + j as f64).sqrt());
-        }
-        self.dynamics.set_extra_needs(&self.switcher.status.needs);
-        self.dynamics.tape(self.now.t, &beside.q, &beside.v);
-        let friction = &d.frictions[f];
-        let rows = &d.rows[friction.rows()];
-        let elements = rows.iter().flat_map(|row| row.jacobian);
-        let sizes = elements.map(|&(_, place)| self.dynamics.motion(place).value().abs());
-        sizes.sum()
+        let sizes = self.now.state.q.iter().map(|q| q.value().abs());
+        let rounding = units * f64::EPSILON * sizes.fold(1.0, f64::max);
+        let moved = |j: usize, _| T::from_f64(rounding * (1.0 + j as f64).sqrt());
+        self.beside(None, T::zero(), moved, |run| {
+            let rows = &d.rows[d.frictions[f].rows()];
+            let elements = rows.iter().flat_map(|row| row.jacobian);
+            let sizes = elements.map(|&(_, place)| run.dynamics.motion(place).value().abs());
+            sizes.sum()
+        })
     }
 }

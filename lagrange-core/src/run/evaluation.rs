@@ -32,24 +32,34 @@ impl<T: Scalar> Run<T> {
         self.dynamics.tape(self.now.t, q, v);
     }
 
-    /// What the numbers of all rows say at a state beside the present one: `later` by so much, with each coordinate changed by a function of its index
-    /// and velocity. The dynamics are left with those of the present state.
+    /// What the numbers of all rows say beside the present state, or that at a part of the step at hand: `later` by so much, with each coordinate changed
+    /// by a function of its index and velocity. The dynamics are left with the numbers of the present state.
     pub(super) fn beside<R>(
         &mut self,
+        part: Option<f64>,
         later: T,
         change: impl Fn(usize, T) -> T,
         read: impl FnOnce(&Self) -> R,
     ) -> R {
         self.ask_for_all_rows();
-        let beside = &mut self.stepper.scratch;
-        beside.clone_from(&self.now.state);
+        let (step, beside) = (&self.stepper.step, &mut self.stepper.scratch);
+        let time = match part.map(T::from_f64) {
+            None => {
+                beside.clone_from(&self.now.state);
+                self.now.t
+            }
+            Some(s) => {
+                step.state_into(s, &mut beside.q, &mut beside.v);
+                step.time(s)
+            }
+        };
         for (j, (q, &v)) in beside.q.iter_mut().zip(&beside.v).enumerate() {
             *q += change(j, v);
         }
-        self.dynamics.tape(self.now.t + later, &beside.q, &beside.v);
-        self.now.valued = false;
+        self.dynamics.tape(time + later, &beside.q, &beside.v);
         let numbers = read(self);
         self.tape_of_all_rows();
+        self.now.valued = false;
         numbers
     }
 

@@ -168,6 +168,7 @@ impl<T: Scalar> Run<T> {
 
     /// Finds what happens first within the step.
     pub(super) fn first_hit(&mut self) -> Hit {
+        self.note_edges_ahead();
         self.locator.falls.clear();
         let mut first = f64::INFINITY;
         let mut falls = core::mem::take(&mut self.locator.falls);
@@ -212,7 +213,7 @@ impl<T: Scalar> Run<T> {
 
     /// Where a guard of the mode falls through zero: (part of the step, half width of the enclosure).
     fn fall(&self, guard: Guard, curve: &[f64]) -> Option<(f64, f64)> {
-        if self.is_held_at(guard) || self.stays_at_edge(guard, curve) {
+        if self.stays_at_edge(guard, curve) {
             return None;
         }
         if is_edge_in_flight(guard, &self.now.mode) {
@@ -226,12 +227,16 @@ impl<T: Scalar> Run<T> {
         }
         let whole = curve;
         let curve = self.judged(guard, whole)?;
-        if falls_at_once(curve) && !self.is_below(guard) && self.within_region(guard, 0.0) {
+        if falls_at_once(curve)
+            && !self.is_held_at(guard, 0.0)
+            && !self.is_below(guard)
+            && self.within_region(guard, 0.0)
+        {
             return Some((0.0, 0.0));
         }
         let root = find_root(curve, |root| {
             let falls = root.direction == Direction::Falling && !root.grazing;
-            match falls && self.within_region(guard, root.s) {
+            match falls && !self.is_held_at(guard, root.s) && self.within_region(guard, root.s) {
                 true => Break(root),
                 false => Continue(()),
             }
@@ -289,6 +294,8 @@ impl<T: Scalar> Run<T> {
             let size: f64 = judged.iter().map(|c| c.abs()).sum();
             let blur = match guard {
                 Guard::Gap(_) => self.settings.tolerance.max(1e-13) * size.max(1.0),
+                // It is relative to what makes it.
+                Guard::Composite(_) => 1e-13 * size.max(1.0),
                 _ => 1e-13 * size,
             };
             if *start > -blur {

@@ -5,7 +5,7 @@
 //! motion is below the surface, until the gap has opened again, wherever that is. Below it may enter the region freely, and
 //! come up through it. Where it enters the region on the surface, as a wheel that climbs a kerb, the contact closes.
 
-use super::Run;
+use super::{Progress, Run};
 use crate::arithmetic::{Scalar, rounding};
 use crate::effects::Item;
 use crate::events::{Direction, find_root};
@@ -15,13 +15,13 @@ use crate::modes::facts::SwitchFacts;
 use crate::modes::guard::Guard;
 use crate::system::{Contact, ValueRef};
 use crate::trajectory::State;
-use core::ops::ControlFlow::Break;
+use core::ops::ControlFlow::{Break, Continue};
 
 /// Gaps that other gaps hold at zero are off by no more than this, relative to what makes them.
 const ROUNDING: f64 = 1e-12;
 
 /// Whether a region and a gap change in proportion is seen in so many ways in which the state changes,
-const WAYS: usize = 3;
+const WAYS: usize = 4;
 
 /// to this share.
 const ALIKE: f64 = 1e-3;
@@ -34,6 +34,9 @@ const LOCATED: f64 = 1e-9;
 
 /// Whether the motion goes out at an edge is seen over this share of its extent, and where it goes out by no more than this share of that again it does not.
 const SOON: f64 = 1e-6;
+
+/// What is within so many tolerances of an edge may be at it.
+const NEARBY: f64 = 10.0;
 
 /// At so many parts of a step it is seen whether it stays at an edge.
 const PLACES: usize = 8;
@@ -53,54 +56,115 @@ impl<T: Scalar> Run<T> {
     pub(super) fn is_in_region(&self, c: usize) -> bool {
         let region = self.description().contacts[c].region;
         region.is_none_or(|place| self.dynamics.motion(place).value() > 0.0)
-            || self.is_held_at(Guard::Region(c))
+            || self.is_held_at(Guard::Region(c), 0.0)
     }
 
-    /// Whether a guard is the edge of a region at which a closed contact keeps the motion: it is in the region.
-    pub(super) fn is_held_at(&self, guard: Guard) -> bool {
+    /// Whether a guard is the edge of a region beyond which another surface keeps the motion off this one, at part `s` of the step: it is in the region.
+    pub(super) fn is_held_at(&self, guard: Guard, s: f64) -> bool {
         let Guard::Region(c) = guard else {
             return false;
         };
-        self.locator.edges_held[c].is_some_and(|by| self.now.mode.contacts[by])
+        let holder = self.locator.edges_held[c];
+        holder.is_some_and(|by| s == 0.0 || self.is_near(by, s))
     }
 
-    /// Notes at which edges contacts that touch keep the motion: a floor that ends at a wall is there along that wall, however it leans or moves.
-    pub(super) fn note_edges_held(&mut self, facts: &SwitchFacts) {
+    /// Notes at which edges other surfaces keep the motion at the present state: a floor that ends at a wall is there along that wall, however it leans or
+    /// moves, and each side of a groove is there at its bottom.
+    pub(super) fn note_edges_held(&mut self) {
+        for c in 0..self.description().contacts.len() {
+            self.locator.edges_held[c] = self.holder_of_edge(c, None);
+        }
+    }
+
+    /// The same after part `end` of a step in which nothing happens.
+    pub(super) fn note_edges_at(&mut self, end: f64) {
+        for c in 0..self.description().contacts.len() {
+            let edge = self.locator.polynomials.of(Guard::Region(c));
+            let is_near = edge.is_some_and(|edge| value(edge, end).abs() <= 2.0 * self.nearby(c));
+            self.locator.edges_held[c] = is_near.then(|| self.holder_of_edge(c, None)).flatten();
+        }
+    }
+
+    /// Notes such edges to which the step at hand comes. Its series are made anew where that has taken their place.
+    pub(super) fn note_edges_ahead(&mut self) {
+        let before = self.now.series;
+        for c in 0..self.description().contacts.len() {
+            if self.locator.edges_held[c].is_none()
+                && let Some(s) = self.comes_to_edge(c)
+                && self.is_near_others(c, s)
+            {
+                self.locator.edges_held[c] = self.holder_of_edge(c, Some(s));
+                self.now.series = Progress::None;
+            }
+        }
+        if before != self.now.series {
+            self.ask_for_guards();
+            // What fails here fails again in the next try.
+            _ = self.expand();
+        }
+    }
+
+    /// The part of the step at hand at which the motion comes to the edge of contact `c`, or to its surface near the edge.
+    fn comes_to_edge(&self, c: usize) -> Option<f64> {
+        let curves = &self.locator.polynomials;
+        let edge = curves.of(Guard::Region(c))?;
+        let near = |s: f64| value(edge, s).abs() <= self.nearby(c);
+        find_root(edge, |root| Break(root.s)).or_else(|| {
+            find_root(curves.of(Guard::Gap(c))?, |root| match near(root.s) {
+                true => Break(root.s),
+                false => Continue(()),
+            })
+        })
+    }
+
+    /// Whether the motion is near the surface of another contact than `c` at a part of the step at hand.
+    fn is_near_others(&self, c: usize, s: f64) -> bool {
+        (0..self.description().contacts.len()).any(|by| by != c && self.is_near(by, s))
+    }
+
+    /// Whether the motion is near the surface of a contact at a part of the step at hand.
+    fn is_near(&self, c: usize, s: f64) -> bool {
+        let gap = self.locator.polynomials.of(Guard::Gap(c));
+        self.now.mode.contacts[c] || gap.is_some_and(|gap| value(gap, s).abs() <= self.nearby(c))
+    }
+
+    /// The contact, if there is one, whose surface keeps the motion off that of contact `c` beyond the edge at which it is, at the present state or at a
+    /// part of the step at hand.
+    fn holder_of_edge(&mut self, c: usize, part: Option<f64>) -> Option<usize> {
         let d = self.description();
-        let limited = |contact: &Contact| contact.region.is_some();
-        if !facts.touching.contains(&true) || !d.contacts.iter().any(limited) {
-            return;
-        }
-        self.tape_of_all_rows();
-        self.now.valued = false;
-        for (c, contact) in d.contacts.iter().enumerate() {
-            let Some(region) = contact.region else {
-                continue;
-            };
-            let is_at_edge = self.dynamics.motion(region).value().abs() <= self.touching(c);
-            let mut others = (0..d.contacts.len()).filter(|&k| k != c && facts.touching[k]);
-            self.locator.edges_held[c] = match is_at_edge {
-                true => others.find(|&by| self.vanish_together(region, by)),
-                false => None,
-            };
-        }
+        let region = d.contacts[c].region?;
+        let mut others = (0..d.contacts.len()).filter(|&by| by != c);
+        others.find(|&by| self.holds_at_edge(by, c, region, part))
     }
 
-    /// Whether a region and the gap of another contact, which vanish here, vanish together: one changes in proportion to the other, whichever way the state
-    /// and the time change.
-    fn vanish_together(&mut self, region: ValueRef, by: usize) -> bool {
-        let read = |run: &Self| [run.dynamics.motion(region).value(), run.gap(by)];
-        let here = read(self);
-        let mut first = None;
-        (0..WAYS).all(|way| {
+    /// Whether contact `by` does so at this edge.
+    fn holds_at_edge(&mut self, by: usize, c: usize, region: ValueRef, part: Option<f64>) -> bool {
+        let d = self.description();
+        let takes_part = self.dynamics.effects().includes(d, Item::Contact(by));
+        if !takes_part || self.now.below[by] {
+            return false;
+        }
+        let number = |place: ValueRef, run: &Self| run.dynamics.motion(place).value();
+        let read = |run: &Self| {
+            let others = d.contacts[by]
+                .region
+                .map_or(f64::INFINITY, |place| number(place, run));
+            [number(region, run), run.gap(c), run.gap(by), others]
+        };
+        let here = self.beside(part, T::zero(), |_, _| T::zero(), read);
+        let near = [self.nearby(c), self.nearby(by)];
+        if here[0].abs() > near[0] || here[2].abs() > near[1] || here[3] < -near[1] {
+            return false;
+        }
+        let changes: [[f64; 4]; WAYS] = core::array::from_fn(|way| {
             // Roots, of which no sum is a multiple of another: cosines of an even spacing have means that are.
             let phase = |j: usize| (1 + way) as f64 * (1.0 + j as f64).sqrt();
             let along = |j: usize| T::from_f64(SOON * phase(j).cos());
-            let there = self.beside(along(0), |j, _| along(j + 1), read);
-            let share = (there[0] - here[0]) / (there[1] - here[1]);
-            let known = *first.get_or_insert(share);
-            (share - known).abs() <= ALIKE * known.abs()
-        })
+            let there = self.beside(part, along(0), |j, _| along(j + 1), read);
+            core::array::from_fn(|k| there[k] - here[k])
+        });
+        // A surface that ends here as well is there beyond this edge.
+        keeps_off(&changes) && (here[3] > near[1] || goes_on(&changes))
     }
 
     /// Whether a guard's contact exists at part `s` of the step and just after it.
@@ -112,7 +176,7 @@ impl<T: Scalar> Run<T> {
         let Some(curve) = self.locator.polynomials.of(edge) else {
             return true;
         };
-        if self.is_held_at(edge) {
+        if self.is_held_at(edge, s) {
             return true;
         }
         // Just after the edge has been located, its first coefficient is zero.
@@ -122,12 +186,13 @@ impl<T: Scalar> Run<T> {
 
     /// Whether the motion is at the edge of contact `c`, of this curve, and goes out.
     fn leaves(&self, c: usize, edge: &[f64], s: f64) -> bool {
-        let distance = value(edge, s).abs();
-        distance
-            <= self
-                .blur(Guard::Region(c), edge, distance)
-                .min(self.touching(c))
-            && slope(edge, s) < 0.0
+        self.falls_here(Guard::Region(c), edge, s) && value(edge, s).abs() <= self.touching(c)
+    }
+
+    /// Whether a guard of this curve falls through zero at part `s` of the step, as steps are located.
+    fn falls_here(&self, guard: Guard, curve: &[f64], s: f64) -> bool {
+        let (distance, slope) = (value(curve, s).abs(), slope(curve, s));
+        slope < 0.0 && distance <= self.blur(guard, curve, distance).max(-SOON * slope)
     }
 
     /// By so much a guard of this curve may be off that is `distance` from zero, as steps are located.
@@ -146,7 +211,7 @@ impl<T: Scalar> Run<T> {
         matches!(guard, Guard::Region(_)) && sizes.all(vanishes)
     }
 
-    /// Where the motion enters the region of an open contact whose gap vanishes there: (part of the step, half width).
+    /// Where the motion enters the region of an open contact whose gap vanishes there: (part of the step, half width). It hits what is there already.
     pub(super) fn comes_onto(&self, edge: Guard, curve: &[f64]) -> Option<(f64, f64)> {
         let Guard::Region(c) = edge else {
             return None;
@@ -155,7 +220,13 @@ impl<T: Scalar> Run<T> {
         let root = find_root(self.judged(edge, curve)?, Break)?;
         let enters = root.direction == Direction::Rising && !root.grazing;
         let (s, width) = self.place(edge, &root);
-        (enters && value(gap, s).abs() <= self.touching(c)).then_some((s, width))
+        let touches = value(gap, s).abs() <= self.touching(c);
+        (enters && touches && !self.is_held_at(edge, s)).then_some((s, width))
+    }
+
+    /// What is no farther than this from the edge of contact `c`, or from its surface, is near.
+    fn nearby(&self, c: usize) -> f64 {
+        SOON.max(NEARBY * self.touching(c))
     }
 
     /// A gap of this size vanishes: the tolerance, but no less than rounding of what makes it.
@@ -188,10 +259,10 @@ impl<T: Scalar> Run<T> {
             let passed = gap < -blur.max(self.touching(c)) || !self.within_region(guard, end);
             // What reaches the edge and the surface at once passes by it, unless it has been found to come onto it.
             let edge = self.locator.polynomials.of(Guard::Region(c));
-            let passes = gap.abs() <= blur.min(self.touching(c))
+            let passes = gap.abs() <= self.touching(c)
+                && self.falls_here(guard, curve, end)
                 && !self.locator.fallen.contains(&Guard::Region(c))
-                && slope(curve, end) < 0.0
-                && !self.is_held_at(Guard::Region(c))
+                && !self.is_held_at(Guard::Region(c), end)
                 && edge.is_some_and(|edge| self.leaves(c, edge, end));
             passing.extend(passes.then_some(c));
             below[c] = passes || gap < 0.0 && (below[c] || passed);
@@ -224,7 +295,7 @@ impl<T: Scalar> Run<T> {
         let (extent, speed) = (1.0 + largest(q), largest(v).max(1.0));
         let soon = T::from_f64(SOON * extent / speed);
         let read = |run: &Self| run.dynamics.motion(place).value();
-        let there = self.beside(soon, |_, v| soon * v, read);
+        let there = self.beside(None, soon, |_, v| soon * v, read);
         there - read(self) < -SOON * SOON * extent
     }
 
@@ -297,4 +368,33 @@ impl<T: Scalar> Run<T> {
             self.locator.polynomials.lower(Guard::Region(c), small);
         }
     }
+}
+
+/// Whether the first of these quantities that vanish, a region, keeps the second, a gap, above zero where it is negative itself and the third, the gap of
+/// another contact, is not, as the ways in which they change tell: region = a·gap + b·other, to first order, with a ≤ 0 < b.
+fn keeps_off(changes: &[[f64; 4]]) -> bool {
+    shares(changes, 0, [1, 2]).is_some_and(|[a, b]| a <= 0.0 && b > 0.0)
+}
+
+/// Whether the last of these quantities, the region of the other contact, is positive where the first one is negative and the gap is not.
+fn goes_on(changes: &[[f64; 4]]) -> bool {
+    shares(changes, 3, [0, 1]).is_some_and(|[a, b]| a <= 0.0 && b >= 0.0)
+}
+
+/// In which shares one of these quantities changes with two others, if it does in the same shares, whichever way: with one of them alone if it does.
+fn shares(changes: &[[f64; 4]], one: usize, [i, k]: [usize; 2]) -> Option<[f64; 2]> {
+    let product = |i: usize, k: usize| changes.iter().map(|x| x[i] * x[k]).sum::<f64>();
+    let free = product(i, i) * product(k, k) - product(i, k) * product(i, k);
+    let both = [
+        (product(one, i) * product(k, k) - product(one, k) * product(i, k)) / free,
+        (product(one, k) * product(i, i) - product(one, i) * product(i, k)) / free,
+    ];
+    let alone = [i, k].map(|i| product(one, i) / product(i, i));
+    let explain = |[a, b]: &[f64; 2]| {
+        let mut rests = changes.iter().map(|x| x[one] - a * x[i] - b * x[k]);
+        rests.all(|rest| rest.abs() <= ALIKE * product(one, one).sqrt())
+    };
+    [[0.0, alone[1]], [alone[0], 0.0], both]
+        .into_iter()
+        .find(explain)
 }

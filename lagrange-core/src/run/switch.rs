@@ -216,6 +216,7 @@ impl<T: Scalar> Run<T> {
         }
         self.begin_series().map_err(|e| self.error(e))?;
         self.note_forces_that_begin();
+        self.switcher.decider.decision.ambiguous |= self.slips_in_name();
         if self.dynamics.has_dependent_rows() {
             let valued = self.now.valued;
             self.evaluate_all_rows()?;
@@ -250,6 +251,18 @@ impl<T: Scalar> Run<T> {
         }
     }
 
+    /// Whether a friction slips in name only: others hold what it rubs on, and its force need not be that of a slip.
+    fn slips_in_name(&self) -> bool {
+        let in_name = |&(guard, order): &(Guard, usize)| match guard {
+            Guard::Slip(f) if order >= guard::LENGTH => {
+                let coefficient = self.description().frictions[f].kinetic_coefficient;
+                !self.dynamics.motion(coefficient).is_zero()
+            }
+            _ => false,
+        };
+        self.locator.zeros.iter().any(in_name)
+    }
+
     /// Forces of several constraints that vanish at this instant begin in the direction in which their frictions are pressed.
     fn note_forces_that_begin(&mut self) {
         for (f, friction) in self.description().frictions.iter().enumerate() {
@@ -282,6 +295,7 @@ impl<T: Scalar> Run<T> {
         }
         self.remember_before();
         self.take_sides_that_jumped(facts);
+        self.note_edges_held();
         let arrives = facts.arriving.contains(&true);
         let hit = arrives && self.hit(facts)?;
         if self.is_at_edge() {
@@ -299,7 +313,6 @@ impl<T: Scalar> Run<T> {
         if near_surfaces || facts.located.iter().any(of_surfaces) {
             self.take_what_touches(facts);
         }
-        self.note_edges_held(facts);
         if !hit {
             self.rest_where_slip_vanishes(facts);
             self.rest_with_what_comes_to_rest(facts);

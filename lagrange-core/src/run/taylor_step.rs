@@ -47,6 +47,7 @@ impl<T: Scalar> Run<T> {
         let (mut corrections, mut shortened) = (0, 0);
         let mut jumps = false;
         loop {
+            self.expand()?;
             self.write_polynomial(h, order);
             if !self.advances(h) {
                 return match self.slips_rest_at_once() {

@@ -2,7 +2,9 @@
 
 use super::{PI, state};
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, closure, run};
+use lagrange_tests::{
+    METHODS, Random, TOLERANCES, agree, certified, closure, methods_at, run, run_by,
+};
 
 /// A ball between two walls, inclined by `left` and `right` to the horizontal.
 #[derive(Lagrangian, Clone, Debug)]
@@ -87,5 +89,131 @@ fn any_groove_ends_in_its_bottom() {
             "{end:?}"
         );
         assert!(closure(&trajectory) < 1e-9);
+    }
+}
+
+/// What is shaken off the bottom of a valley falls back onto it, where rounding has put it on one side or the other.
+#[test]
+fn a_ball_falls_back_to_the_bottom() {
+    for (up, down) in [(2.0, 2.0), (3.0, 3.0), (0.5, 0.5), (1.0, 0.3)] {
+        for (beside, drift) in [(0.0, 0.0), (1e-15, -1e-17), (-1e-16, 1e-17), (1e-3, 0.0)] {
+            let valley = Valley {
+                up,
+                down,
+                bent: 0.0,
+                e: 0.0,
+                mu: 0.0,
+                bottom: 0.0,
+                speed: 0.0,
+                swing: 0.5,
+                rate: 5.0,
+            };
+            for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+                let what = format!("{valley:?} from {beside:e} by {method} at {tolerance:e}");
+                let start = state(&[beside, up.max(-down) * f64::abs(beside)], &[drift, 2.5]);
+                let motion = run_by(&valley, (method, tolerance), start, 4.0);
+                let State { q, .. } = motion.final_state();
+                // Neither surface has let it through.
+                let bottom = 0.5 * 20.0_f64.sin();
+                assert!(q[1] > bottom - 1e-6 && q[0].abs() < 0.1, "{what}: {q:?}");
+                certified(&what, &motion);
+            }
+        }
+    }
+}
+
+/// A ball in a valley that moves, whose sides are surfaces that end at each other, at its bottom.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    define(beside = x - bottom - speed*t, above = y - swing*sin(rate*t)),
+    kinetic = (der(x)^2 + der(y)^2)/2,
+    potential = 9.81*y,
+    contact(rising: above >= up*beside + bent*beside^2, where beside >= 0, restitution = e),
+    contact(falling: above >= -down*beside + bent*beside^2, where beside <= 0, restitution = e),
+    friction(grips on rising: slip = der(beside) + up*der(above), static = mu),
+    friction(holds on falling: slip = der(beside) - down*der(above), static = mu),
+)]
+struct Valley {
+    up: f64,
+    down: f64,
+    bent: f64,
+    e: f64,
+    mu: f64,
+    bottom: f64,
+    speed: f64,
+    swing: f64,
+    rate: f64,
+}
+
+/// However it is hit, the ball bounces ever lower and comes to rest at the bottom, where neither side alone would hold it.
+#[test]
+fn sides_that_end_at_each_other_hold_a_ball_at_the_bottom() {
+    let mut random = Random::new(54);
+    for round in 0..12 {
+        let valley = Valley {
+            up: random.between(0.4, 1.8),
+            down: random.between(0.4, 1.8),
+            bent: [0.0, 0.6][round % 2],
+            e: [0.0, 0.3, 0.6, 0.75][round % 4],
+            mu: [0.0, 0.2][round / 2 % 2],
+            bottom: [0.0, 1.7][round / 4 % 2],
+            speed: [0.0, 0.5, -0.3][round % 3],
+            swing: [0.0, 0.01][round / 6],
+            rate: 4.0,
+        };
+        let beside = random.between(0.05, 0.3);
+        let height = valley.up * beside + valley.bent * beside * beside;
+        let start = state(
+            &[valley.bottom + beside, height + 0.1],
+            &[valley.speed, valley.swing * valley.rate],
+        );
+        for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+            let what = format!("{valley:?} by {method} at {tolerance:e}");
+            let motion = run_by(&valley, (method, tolerance), start.clone(), 5.0);
+            let State { q, .. } = motion.final_state();
+            agree(
+                &what,
+                q[0],
+                valley.bottom + 5.0 * valley.speed,
+                10.0 * tolerance,
+            );
+            agree(
+                &what,
+                q[1],
+                valley.swing * (5.0 * valley.rate).sin(),
+                10.0 * tolerance,
+            );
+            certified(&what, &motion);
+        }
+    }
+}
+
+/// Surfaces that end at each other on a ridge hold nothing: a ball that is put beside it slides down.
+#[test]
+fn sides_of_a_ridge_hold_nothing_beyond_it() {
+    let ridge = Valley {
+        up: -0.7,
+        down: -0.4,
+        bent: 0.0,
+        e: 0.0,
+        mu: 0.0,
+        bottom: 0.0,
+        speed: 0.0,
+        swing: 0.0,
+        rate: 1.0,
+    };
+    for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+        for (beside, side) in [(1e-3, -0.7), (-1e-3, 0.4)] {
+            let what = format!("from {beside:e} by {method} at {tolerance:e}");
+            let start = state(&[beside, side * beside], &[0.0, 0.0]);
+            let motion = run_by(&ridge, (method, tolerance), start, 1.0);
+            // Along a slope m it accelerates by −g m/(1 + m²).
+            let goes = beside - 9.81 / 2.0 * side / (1.0 + side * side);
+            let State { q, .. } = motion.final_state();
+            agree(&what, q[0], goes, 100.0 * tolerance);
+            agree(&what, q[1], side * goes, 100.0 * tolerance);
+            certified(&what, &motion);
+        }
     }
 }
