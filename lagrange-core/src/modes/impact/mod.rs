@@ -190,19 +190,7 @@ impl<T: Scalar> Collider<T> {
         } = self;
         match impacts {
             Impacts::InTurn => turns.solve(collision, law),
-            Impacts::Together => {
-                law.phase.within.clear();
-                law.phase.within.resize(collision.touches.len(), true);
-                if !law.solve(collision, &collision.rates) {
-                    return Err(Stuck::Unsolved(0));
-                }
-                turns.impulses.clone_from(&law.impulses);
-                turns.rates.clone_from(&law.after);
-                turns.noise.clone_from(&law.noise);
-                (turns.undetermined, turns.lowered) = (law.undetermined, law.lowered);
-                turns.ambiguous = law.ambiguous;
-                Ok(())
-            }
+            Impacts::Together => turns.solve_groups(collision, law),
         }
     }
 
@@ -253,7 +241,8 @@ impl<T: Scalar> Collider<T> {
     /// Other impacts that satisfy the law, where it has one phase.
     fn write_others(&mut self, d: &Description, v: &[T]) {
         self.outcome.others.clear();
-        let whole = self.collision.touches.iter().all(|touch| !touch.poisson);
+        let whole =
+            self.collision.touches.iter().all(|touch| !touch.poisson) && self.turns.count == 1;
         if !(whole && self.turns.ambiguous) {
             return;
         }

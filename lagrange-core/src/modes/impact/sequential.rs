@@ -1,4 +1,5 @@
-//! Impacts one after the other: in order of declaration, again and again, until no contact approaches.
+//! Impacts one after the other: in order of declaration, again and again, until no contact approaches; or those of groups of contacts that do nothing to
+//! one another.
 //!
 //! A ball that two others squeeze with e < 1 is hit infinitely often, by speeds that shrink geometrically: what remains
 //! is followed until it is below rounding, its limit. Where it does not shrink there is no end, and that is an error.
@@ -34,19 +35,16 @@ pub(super) struct Turns<T> {
     pub count: usize,
     /// Largest rate so far.
     spans: Vec<f64>,
+    /// Per row: the group that it belongs to.
+    groups: Vec<usize>,
 }
 
 impl<T: Scalar> Turns<T> {
     /// Solves `c` by single impacts.
     pub fn solve(&mut self, c: &Collision<T>, law: &mut Law<T>) -> Result<(), Stuck> {
-        self.rates.clone_from(&c.rates);
-        self.impulses.clear();
-        self.impulses.resize(c.size, T::zero());
+        self.begin(c, law);
         self.spans.clear();
         self.spans.resize(c.size, 0.0);
-        (self.undetermined, self.lowered, self.ambiguous, self.count) = (false, false, false, 0);
-        law.phase.within.clear();
-        law.phase.within.resize(c.touches.len(), false);
         let mut at_rest = 0;
         for k in (0..c.touches.len()).cycle() {
             self.measure(c);
@@ -73,6 +71,43 @@ impl<T: Scalar> Turns<T> {
         }
         self.settle(c, law);
         Ok(())
+    }
+
+    /// Solves `c` by one impact of all contacts together, or one for each group of contacts that do nothing to one another: what one of them lets go of a
+    /// restitution is no matter of another.
+    pub fn solve_groups(&mut self, c: &Collision<T>, law: &mut Law<T>) -> Result<(), Stuck> {
+        self.begin(c, law);
+        c.groups(&mut self.groups);
+        self.noise.clear();
+        self.noise.resize(c.size, 0.0);
+        for k in 0..c.touches.len() {
+            let group = self.groups[c.touches[k].row];
+            let mut earlier = c.touches[..k].iter();
+            if earlier.any(|touch| self.groups[touch.row] == group) {
+                continue;
+            }
+            for (within, touch) in law.phase.within.iter_mut().zip(&c.touches) {
+                *within = self.groups[touch.row] == group;
+            }
+            if !law.solve(c, &self.rates) {
+                return Err(Stuck::Unsolved(k));
+            }
+            self.count += 1;
+            self.add(law);
+            for (noise, of_group) in self.noise.iter_mut().zip(&law.noise) {
+                *noise = noise.max(*of_group);
+            }
+        }
+        Ok(())
+    }
+
+    fn begin(&mut self, c: &Collision<T>, law: &mut Law<T>) {
+        self.rates.clone_from(&c.rates);
+        self.impulses.clear();
+        self.impulses.resize(c.size, T::zero());
+        (self.undetermined, self.lowered, self.ambiguous, self.count) = (false, false, false, 0);
+        law.phase.within.clear();
+        law.phase.within.resize(c.touches.len(), false);
     }
 
     /// Adds an impact.

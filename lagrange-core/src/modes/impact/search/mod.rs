@@ -24,6 +24,9 @@ const FEW: usize = 100;
 /// So many are tried if that has failed.
 const MOST: usize = 20_000;
 
+/// So many of several frictions with two components: the directions of slips take a hundredth of a second to find.
+const MOST_IN_SPACE: usize = 5_000;
+
 /// Frictions with two components obey their law to what rounding leaves; if no combination does so, to so many times that: at the edge of a cone
 /// sticking and sliding differ by no more than errors of the state, and what slides hardly has a direction.
 const LEEWAY: f64 = 1e4;
@@ -77,7 +80,7 @@ impl<T: Scalar> Search<T> {
         if several {
             return self.relax(c, phase)
                 || self.complement(c, phase)
-                || count.is_some_and(|n| n <= FEW) && self.enumerate(c, phase);
+                || count.is_some_and(|n| n <= MOST_IN_SPACE) && self.enumerate(c, phase);
         }
         if count.is_some_and(|n| n <= FEW) {
             return self.enumerate(c, phase) || self.complement(c, phase);
