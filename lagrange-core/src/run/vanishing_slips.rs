@@ -51,20 +51,19 @@ impl<T: Scalar> Run<T> {
         self.rest_among(ending, coming > 1, facts);
     }
 
-    /// A slip after an impact may be the error of rows that hold on: of a box that lands in the corner of a floor and a wall that move together.
+    /// A slip after an impact may be the error of rows that hold on: of a box that lands in the corner of a floor and a wall that move together, or on both
+    /// of its feet.
     pub(super) fn rest_where_impact_leaves_nothing(&mut self, facts: &mut SwitchFacts) {
         let d = self.description();
-        let rubs = |f: &usize| {
-            let friction = &d.frictions[*f];
-            d.rows[friction.row].rheonomic
-                && friction.normal.presses(|c| facts.touching[c])
+        let acts = |f: &usize| {
+            d.frictions[*f].normal.presses(|c| facts.touching[c])
                 && !facts.resting[*f]
                 && self.dynamics.effects().includes(d, Item::Friction(*f))
         };
         let mut ending = core::mem::take(&mut self.switcher.ending);
         ending.clear();
         if facts.touching.contains(&true) {
-            ending.extend((0..d.frictions.len()).filter(rubs));
+            ending.extend((0..d.frictions.len()).filter(acts));
         }
         self.rest_among(ending, false, facts);
     }

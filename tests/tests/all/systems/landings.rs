@@ -3,7 +3,8 @@
 use super::state;
 use lagrange_core::prelude::*;
 use lagrange_tests::{
-    METHODS, Random, TOLERANCES, agree, certified, closure, event, methods_at, run, run_by, words,
+    METHODS, Random, TOLERANCES, agree, certified, closure, event, methods_at, run, run_by, times,
+    words,
 };
 
 /// A body that lands on a rough plane: two directions of slip, each with a wheel of its own moment of inertia.
@@ -259,6 +260,75 @@ fn a_mass_that_falls_back_into_a_corner_meets_both_its_sides() {
             let what = format!("{scene:?} {speed} {method} {tolerance}");
             agree(&what, run.final_state().q[0], rests, 100.0 * tolerance);
             certified(&what, &run);
+        }
+    }
+}
+
+/// A box on two feet with three brakes of given strength, which falls onto one foot and then the other.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, turn),
+    define(
+        left_x = x - wide*cos(turn) + tall*sin(turn),
+        left = y - wide*sin(turn) - tall*cos(turn),
+        right_x = x + wide*cos(turn) + tall*sin(turn),
+        right = y + wide*sin(turn) - tall*cos(turn),
+    ),
+    kinetic = (der(x)^2 + der(y)^2)/2 + inertia/2*der(turn)^2,
+    potential = 10*y,
+    contact(heel: left >= 0, restitution = 0),
+    contact(toe: right >= 0, restitution = 0),
+    friction(rear on heel: slip = der(left_x), static = mu),
+    friction(front on toe: slip = der(right_x), static = mu),
+    friction(down: slip = der(y), limit = (strength, strength/10)),
+    friction(about: slip = der(turn), limit = (1, 0.2)),
+    friction(ahead: slip = der(x), limit = (2, 0.3)),
+    force(lift: y = 20*max(0, t - 2)),
+    start(tilted: x = 0, y = tall*cos(tilt) + wide*abs(sin(tilt)), turn = tilt),
+)]
+struct Braked {
+    wide: f64,
+    tall: f64,
+    inertia: f64,
+    mu: f64,
+    strength: f64,
+    tilt: f64,
+}
+
+/// Once it rests its brakes hold, whatever rounding the impact has left of their slips: it is lifted when the pull carries its weight and overcomes the brake
+/// that holds it down.
+#[test]
+fn brakes_hold_what_has_landed_on_all_its_feet() {
+    for (wide, tall, inertia, mu) in [
+        (0.5, 0.3, 0.1, 0.9),
+        (1.0, 0.3, 0.3, 0.9),
+        (0.5, 0.1, 0.05, 2.0),
+    ] {
+        for tilt in [0.1, -0.2, 0.05, 0.3, -0.137] {
+            let body = Braked {
+                wide,
+                tall,
+                inertia,
+                mu,
+                strength: 3.0,
+                tilt,
+            };
+            for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+                let what = format!("{body:?} by {method} at {tolerance:e}");
+                let run = run_by(&body, (method, tolerance), body.at(Braked::TILTED), 3.0);
+                let late = run.events().iter().filter(|event| event.time > 2.0 + 1e-6);
+                assert!(
+                    late.clone().all(|event| (event.time - 2.65).abs() < 1e-6),
+                    "{what}: {:?}",
+                    words(&run)
+                );
+                let lifted = ["heel", "toe"]
+                    .map(|foot| *times(&run, foot, "lost").last().expect("it is lifted"));
+                lifted
+                    .iter()
+                    .for_each(|&time| agree(&what, time, 2.65, 1e-6));
+                certified(&what, &run);
+            }
         }
     }
 }
