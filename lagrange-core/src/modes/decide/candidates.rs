@@ -1,5 +1,6 @@
 //! The modes that the known facts allow: each choice of contacts, frictions and branches.
 
+use super::parts::Parts;
 use super::sticks;
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, OutputMask};
@@ -14,8 +15,8 @@ use crate::system::{Description, Normal, ValueRef};
 /// once. Beyond, [`pivot`](super::pivot) finds a mode without looking at all.
 pub const MOST_CANDIDATES: usize = 256;
 
-/// So many are where nothing else finds one: some hundredths of a second.
-pub const MOST_OF_ALL: usize = 8192;
+/// So many are where nothing else finds one: eight contacts with friction, which takes a second.
+const MOST_OF_ALL: usize = 65_536;
 
 /// States that one friction can be in: stick, and two directions of slip for each of two signs of the normal force.
 const MOST_STATES: usize = 5;
@@ -29,6 +30,8 @@ pub struct Listings {
     facts: Vec<Candidates>,
     /// Index of the list to be written over next.
     oldest: usize,
+    /// What is not kept: a part of a system, and more than can be compared.
+    passing: Candidates,
     /// Per friction.
     grips: Vec<Grip>,
 }
@@ -60,6 +63,14 @@ impl Candidates {
     /// The modes, the preferred ones first.
     pub fn iter(&self) -> impl Iterator<Item = &Mode> {
         self.order.iter().map(|&(_, index)| &self.modes[index])
+    }
+
+    /// These in order, unless they are more than `most`.
+    fn sorted(&mut self, here: SwitchContext<'_, impl Copy>, most: usize) -> Option<&Self> {
+        (self.modes.len() <= most).then(|| {
+            self.sort(here);
+            &*self
+        })
     }
 
     /// Puts the modes in order, unless they are in that which these guards ask for.
@@ -128,12 +139,19 @@ fn rank(mode: &Mode, here: SwitchContext<'_, impl Copy>) -> u128 {
         .any(|g| matches!(g, Guard::Composite(_)));
     let sticks_on = |f: usize| mode.frictions[f] == FrictionMode::Stick;
     let holds = |guard: &&Guard| guard.holding().is_some_and(sticks_on);
+    let overcome = facts.located.iter().filter(|g| g.holding().is_some());
     let left_behind = facts.located.iter().filter(holds).count();
+    // All together may hold by other bounds: of a load that does not grow on, or where what presses them turns.
+    let may_hold = !facts.again && left_behind == overcome.count();
     let changes = changes(mode, present);
     let differs = changes > 0 || mode.branches != present.branches;
     let most = (1 << BITS) - 1;
     let criteria = [
-        if composite { left_behind } else { 0 },
+        if composite && !may_hold {
+            left_behind
+        } else {
+            0
+        },
         most - sticks(mode),
         most - closed,
         usize::from(differs),
@@ -145,15 +163,15 @@ fn rank(mode: &Mode, here: SwitchContext<'_, impl Copy>) -> u128 {
 }
 
 impl Listings {
-    /// All modes that the known facts allow, in order of preference; `None` if they are more than `most`.
+    /// All modes that the known facts allow, in order of preference; `None` if they are more than [`MOST_CANDIDATES`].
     pub fn list<T: Scalar>(
         &mut self,
         dynamics: &mut Dynamics<T>,
         here: SwitchContext<'_, T>,
         rows: &OutputMask,
         scratch: &mut Mode,
-        most: usize,
     ) -> Option<&Candidates> {
+        let most = MOST_CANDIDATES;
         let looked = look_at_slips(dynamics, here, rows);
         let composite = |guard: &Guard| matches!(guard, Guard::Composite(_));
         let follows = !looked && !here.facts.located.iter().any(composite);
@@ -175,6 +193,7 @@ impl Listings {
             list.order.clear();
             let mut listing = Listing {
                 choices,
+                part: None,
                 most,
                 out: &mut list.modes,
             };
@@ -185,11 +204,54 @@ impl Listings {
             }
             self.oldest
         });
-        let list = &mut self.facts[index];
-        (list.modes.len() <= most).then(|| {
-            list.sort(here);
-            &*list
-        })
+        self.facts[index].sorted(here, most)
+    }
+
+    /// The same with no more than what one part of the system may do, where the others are as they are in `mode`.
+    pub fn list_part<T: Scalar>(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        here: SwitchContext<'_, T>,
+        rows: &OutputMask,
+        mode: &mut Mode,
+        part: (&Parts, usize),
+    ) -> Option<&Candidates> {
+        self.pass(dynamics, here, rows, mode, Some(part), MOST_CANDIDATES)
+    }
+
+    /// The same, also if they are many.
+    pub fn list_all<T: Scalar>(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        here: SwitchContext<'_, T>,
+        rows: &OutputMask,
+        scratch: &mut Mode,
+    ) -> Option<&Candidates> {
+        scratch.clone_from(here.present);
+        self.pass(dynamics, here, rows, scratch, None, MOST_OF_ALL)
+    }
+
+    /// Lists modes that are not kept.
+    fn pass<T: Scalar>(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        here: SwitchContext<'_, T>,
+        rows: &OutputMask,
+        mode: &mut Mode,
+        part: Option<(&Parts, usize)>,
+        most: usize,
+    ) -> Option<&Candidates> {
+        look_at_slips(dynamics, here, rows);
+        self.passing.modes.clear();
+        self.passing.order.clear();
+        let mut listing = Listing {
+            choices: Choices { dynamics, here },
+            part,
+            most,
+            out: &mut self.passing.modes,
+        };
+        listing.contacts(mode, 0);
+        self.passing.sorted(here, most)
     }
 }
 
@@ -331,6 +393,8 @@ impl<T: Scalar> Choices<'_, T> {
 /// Writes down modes, choice after choice.
 struct Listing<'a, T: Scalar> {
     choices: Choices<'a, T>,
+    /// The part that is free, if not everything is.
+    part: Option<(&'a Parts, usize)>,
     /// More are not written down.
     most: usize,
     out: &'a mut Pool<Mode>,
@@ -345,6 +409,12 @@ impl<T: Scalar> Listing<'_, T> {
         if self.out.len() > self.most {
             return;
         }
+        if self
+            .part
+            .is_some_and(|(parts, part)| parts.contacts[c] != part)
+        {
+            return self.contacts(mode, c + 1);
+        }
         if self.choices.here.facts.touching[c] {
             mode.contacts[c] = true;
             self.contacts(mode, c + 1);
@@ -357,6 +427,12 @@ impl<T: Scalar> Listing<'_, T> {
     fn frictions(&mut self, mode: &mut Mode, f: usize) {
         if f == mode.frictions.len() {
             return self.branches(mode, 0);
+        }
+        if self
+            .part
+            .is_some_and(|(parts, part)| parts.frictions[f] != part)
+        {
+            return self.frictions(mode, f + 1);
         }
         let mut states = [FrictionMode::Inactive; MOST_STATES];
         let mut count = 0;

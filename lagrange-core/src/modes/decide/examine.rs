@@ -120,6 +120,8 @@ impl<T: Scalar> Decider<T> {
             &watched.deciding,
             &mut self.questions,
         );
+        let later = |guard| matches!(guard, Guard::Gap(c) if self.undecided[c]);
+        self.questions.retain(|(guard, _)| !later(*guard));
         // A branch that stays at its border is the one that is declared for equality.
         self.violated.clear();
         let held = self.held.held();

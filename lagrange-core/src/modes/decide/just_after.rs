@@ -110,6 +110,11 @@ impl<T: Scalar> Decider<T> {
         let mut unclear = false;
         let questions = core::mem::take(&mut self.questions);
         for &(guard, order_known) in &questions {
+            // Where others hold it, series of a direction that there is not are no guide.
+            if self.must_stick(guard, dynamics) && is_held::<T>(guard, facts, dynamics) {
+                self.violated.push(guard);
+                continue;
+            }
             let mut series = [0.0; guard::LENGTH];
             let series = &mut series[..=order];
             match self.just_after(guard, order_known, ahead, series) {
@@ -118,7 +123,7 @@ impl<T: Scalar> Decider<T> {
                 Leading::Rises(k) => self.zeros.push((guard, k)),
                 Leading::Stays if !last => unclear = true,
                 Leading::Stays
-                    if self.sticks_first && matches!(guard, Guard::Slip(_))
+                    if self.must_stick(guard, dynamics)
                         || !self.lies_loosely && is_held::<T>(guard, facts, dynamics) =>
                 {
                     self.violated.push(guard);
@@ -140,6 +145,15 @@ impl<T: Scalar> Decider<T> {
             return None;
         }
         Some(self.violated.is_empty())
+    }
+
+    /// Whether a slip that would stay zero must stick: one of two components has no direction then.
+    fn must_stick(&self, guard: Guard, dynamics: &Dynamics<T>) -> bool {
+        let Guard::Slip(f) = guard else {
+            return false;
+        };
+        let turns = dynamics.description().frictions[f].components > 1;
+        self.sticks_first || turns && !self.slips_in_name
     }
 
     /// How long slips that are under way keep their directions, s: beyond the time in which one of two components may turn or end its series

@@ -13,6 +13,7 @@ mod examine;
 mod guess;
 mod incipient;
 mod just_after;
+mod parts;
 mod pivot;
 mod questions;
 mod together;
@@ -31,9 +32,10 @@ use crate::modes::redundant::RedundantForces;
 use crate::modes::scale::Sizes;
 use crate::modes::table::Table;
 use crate::system::{Constraint, Description};
-use candidates::{Candidates, Listings, MOST_CANDIDATES, MOST_OF_ALL};
+use candidates::{Candidates, Listings, MOST_CANDIDATES};
 use examine::Doubt;
 use incipient::Beginning;
+use parts::Parts;
 
 /// The mode that goes on.
 #[derive(Clone, Debug)]
@@ -59,6 +61,9 @@ pub struct Decider<T> {
     /// What was found last.
     pub decision: Decision,
     listings: Listings,
+    parts: Parts,
+    /// Per contact: its part of the system is decided on later.
+    undecided: Vec<bool>,
     questions: Vec<(Guard, usize)>,
     zeros: Vec<(Guard, usize)>,
     at_limit: Vec<(Guard, f64)>,
@@ -78,6 +83,8 @@ pub struct Decider<T> {
     sticks_first: bool,
     /// Whether a contact that others hold closed may carry nothing.
     lies_loosely: bool,
+    /// Whether what others hold at rest may slip in no direction.
+    slips_in_name: bool,
     /// Modes tried so far.
     tried: usize,
     /// Needs of everything about every row.
@@ -112,6 +119,8 @@ impl<T: Scalar> Decider<T> {
                 expanded: false,
             },
             listings: Listings::default(),
+            parts: Parts::of(description),
+            undecided: vec![false; description.contacts.len()],
             questions: Vec::new(),
             zeros: Vec::new(),
             at_limit: Vec::new(),
@@ -125,6 +134,7 @@ impl<T: Scalar> Decider<T> {
             sized: false,
             sticks_first: false,
             lies_loosely: false,
+            slips_in_name: false,
             tried: 0,
             rows,
             everything,
@@ -188,26 +198,64 @@ impl<T: Scalar> Decider<T> {
         let mut listings = core::mem::take(&mut self.listings);
         let scratch = &mut self.decision.mode;
         self.tried = 0;
-        let mut listed = listings.list(dynamics, here, &self.rows, scratch, MOST_CANDIDATES);
-        let mut outcome = self.search(dynamics, table, here, listed);
-        if listed.is_none() && !matches!(outcome, Ok(true)) {
-            // What pivoting does not find is among all of them.
-            let scratch = &mut self.decision.mode;
-            listed = listings.list(dynamics, here, &self.rows, scratch, MOST_OF_ALL);
-            if listed.is_some() {
-                outcome = self.search(dynamics, table, here, listed);
+        let outcome = match listings.list(dynamics, here, &self.rows, scratch) {
+            Some(few) => self.search(dynamics, table, here, few),
+            None => self.decide_among_many(dynamics, table, here, &mut listings),
+        };
+        self.listings = listings;
+        outcome
+    }
+
+    /// The same where more modes are possible than are all looked at.
+    fn decide_among_many(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        table: &mut Table,
+        here: SwitchContext<'_, T>,
+        listings: &mut Listings,
+    ) -> Result<bool, EvaluationError> {
+        if let Ok(true) = self.part_by_part(dynamics, table, here, listings) {
+            return Ok(true);
+        }
+        let outcome = self.pivot(dynamics, table, here);
+        let found = matches!(outcome, Ok(true));
+        if found && !is_loose(&self.decision.zeros, dynamics.description()) {
+            return Ok(true);
+        }
+        // What pivoting does not find is among all of them.
+        let scratch = &mut self.decision.mode;
+        if let Some(all) = listings.list_all(dynamics, here, &self.rows, scratch)
+            && let Ok(true) = self.search(dynamics, table, here, all)
+        {
+            return Ok(true);
+        }
+        self.decision.ambiguous |= found;
+        if found {
+            return Ok(true);
+        }
+        let loosely = self.loosely(|decider| decider.pivot(dynamics, table, here));
+        if let Ok(true) = loosely {
+            loosely
+        } else {
+            outcome
+        }
+    }
+
+    /// Looks for a mode in which a contact that others hold closed carries nothing, as of a block that slides on three supports in a row, one of which is
+    /// rough; and then for one in which what others hold at rest slips in no direction.
+    fn loosely<E>(
+        &mut self,
+        mut find: impl FnMut(&mut Self) -> Result<bool, E>,
+    ) -> Result<bool, E> {
+        let mut outcome = Ok(false);
+        for slips_in_name in [false, true] {
+            (self.lies_loosely, self.slips_in_name) = (true, slips_in_name);
+            outcome = find(self);
+            if let Ok(true) = outcome {
+                break;
             }
         }
-        if !matches!(outcome, Ok(true)) {
-            // Of a block that slides on three supports in a row, one of which is rough, two carry it.
-            self.lies_loosely = true;
-            outcome = match self.search(dynamics, table, here, listed) {
-                Ok(true) => Ok(true),
-                _ => outcome,
-            };
-            self.lies_loosely = false;
-        }
-        self.listings = listings;
+        (self.lies_loosely, self.slips_in_name) = (false, false);
         outcome
     }
 
@@ -227,17 +275,92 @@ impl<T: Scalar> Decider<T> {
         })
     }
 
-    /// Looks for a feasible mode among those `listed`, or, if they are too many, from one to the next.
+    /// Looks for a feasible mode of each part of the system that is concerned, one after the other, and looks at all together.
+    fn part_by_part(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        table: &mut Table,
+        here: SwitchContext<'_, T>,
+        listings: &mut Listings,
+    ) -> Result<bool, EvaluationError> {
+        let parts = core::mem::take(&mut self.parts);
+        let outcome = self.parts_in_turn(dynamics, table, here, listings, &parts);
+        self.parts = parts;
+        self.undecided.fill(false);
+        outcome
+    }
+
+    fn parts_in_turn(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        table: &mut Table,
+        here: SwitchContext<'_, T>,
+        listings: &mut Listings,
+        parts: &Parts,
+    ) -> Result<bool, EvaluationError> {
+        // Branches act on everything.
+        if parts.count < 2 || here.facts.balanced.contains(&true) {
+            return Ok(false);
+        }
+        let d = dynamics.description();
+        let mut whole = here.present.clone();
+        let concerned = (0..parts.count).filter(|&part| parts.is_concerned(part, here, d));
+        for part in concerned.clone() {
+            parts.release(part, &mut whole);
+            let contacts = self.undecided.iter_mut().zip(&parts.contacts);
+            contacts.for_each(|(undecided, of)| *undecided |= *of == part);
+        }
+        let mut ambiguous = false;
+        for part in concerned {
+            let contacts = self.undecided.iter_mut().zip(&parts.contacts);
+            contacts.for_each(|(undecided, of)| *undecided &= *of != part);
+            let Some(candidates) =
+                listings.list_part(dynamics, here, &self.rows, &mut whole, (parts, part))
+            else {
+                return Ok(false);
+            };
+            if !self.search(dynamics, table, here, candidates)? {
+                return Ok(false);
+            }
+            ambiguous |= self.decision.ambiguous;
+            whole.clone_from(&self.best);
+        }
+        let feasible = !here.ends(&whole) && self.examine(dynamics, table, here, &whole)?;
+        if feasible {
+            self.decision.ambiguous = ambiguous;
+            self.keep(dynamics);
+        }
+        Ok(feasible)
+    }
+
+    /// Looks for a feasible mode among these.
     fn search(
         &mut self,
         dynamics: &mut Dynamics<T>,
         table: &mut Table,
         here: SwitchContext<'_, T>,
-        listed: Option<&Candidates>,
+        candidates: &Candidates,
     ) -> Result<bool, EvaluationError> {
-        let Some(candidates) = listed else {
-            return self.pivot(dynamics, table, here);
-        };
+        let outcome = self.search_strictly(dynamics, table, here, candidates);
+        if let Ok(true) = outcome {
+            return outcome;
+        }
+        let loosely =
+            self.loosely(|decider| decider.search_strictly(dynamics, table, here, candidates));
+        if let Ok(true) = loosely {
+            loosely
+        } else {
+            outcome
+        }
+    }
+
+    fn search_strictly(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        table: &mut Table,
+        here: SwitchContext<'_, T>,
+        candidates: &Candidates,
+    ) -> Result<bool, EvaluationError> {
         match self.best(dynamics, table, here, candidates) {
             Ok(true) => Ok(true),
             refused => match self.best_exactly(dynamics, table, here, candidates) {
@@ -262,7 +385,7 @@ impl<T: Scalar> Decider<T> {
         let mut listings = core::mem::take(&mut self.listings);
         self.sized = false;
         let scratch = &mut self.decision.mode;
-        let listed = listings.list(dynamics, here, &self.rows, scratch, MOST_CANDIDATES);
+        let listed = listings.list(dynamics, here, &self.rows, scratch);
         let Some(candidates) = listed else {
             self.listings = listings;
             return Err(Error::Limit {
@@ -365,7 +488,7 @@ impl<T: Scalar> Decider<T> {
                 continue;
             }
             // Stick is preferred to slip without being ambiguous (μs > μk allows both).
-            let passes = |found: Found| unique || !found.lies && found.sticks > sticks(mode);
+            let passes = |found: Found| unique || !found.loose && found.sticks > sticks(mode);
             if best.is_some_and(passes) {
                 continue;
             }
@@ -373,18 +496,15 @@ impl<T: Scalar> Decider<T> {
             let outcome = self.examine(dynamics, table, here, mode);
             // Another than the best leaves its own series behind.
             self.decision.expanded &= best.is_none();
-            let lies = self
-                .zeros
-                .iter()
-                .any(|&(guard, order)| matches!(guard, Guard::Gap(_)) && order >= guard::LENGTH);
+            let loose = is_loose(&self.zeros, dynamics.description());
             match outcome {
-                Ok(true) if best.is_none_or(|found| found.lies && !lies) => {
+                Ok(true) if best.is_none_or(|found| found.loose && !loose) => {
                     let sticks = sticks(mode);
-                    best = Some(Found { sticks, lies });
+                    best = Some(Found { sticks, loose });
                     self.decision.ambiguous = self.forks;
                     self.keep(dynamics);
                 }
-                Ok(true) if best.is_some_and(|found| found.lies == lies) => {
+                Ok(true) if best.is_some_and(|found| found.loose == loose) => {
                     self.decision.ambiguous |= differ(&self.motion, dynamics.acceleration());
                 }
                 Ok(true) => {}
@@ -484,8 +604,20 @@ impl<T: Scalar> Decider<T> {
 struct Found {
     /// How many frictions stick.
     sticks: usize,
-    /// Whether a contact is open that nothing lifts: others carry its share of the load, as they need not.
-    lies: bool,
+    /// See [`is_loose`].
+    loose: bool,
+}
+
+/// Whether, by what stays zero in a mode, a contact is open that nothing lifts: others carry its share of the load, as they need not; or a friction slips
+/// in no direction, because others hold what it rubs on.
+fn is_loose(zeros: &[(Guard, usize)], d: &Description) -> bool {
+    let stays = |guard| match guard {
+        Guard::Gap(_) => true,
+        Guard::Slip(f) => d.frictions[f].components > 1,
+        _ => false,
+    };
+    let mut zeros = zeros.iter();
+    zeros.any(|&(guard, order)| order >= guard::LENGTH && stays(guard))
 }
 
 fn sticks(mode: &Mode) -> usize {

@@ -1,0 +1,128 @@
+//! Parts of a system whose modes do not depend on one another: bodies that have nothing in common but the floor. What several of them may do
+//! together is a product of what each may do alone, and nobody need look at all of it.
+
+use crate::mode::{FrictionMode, Mode};
+use crate::modes::facts::SwitchContext;
+use crate::modes::guard::Guard;
+use crate::system::Description;
+
+/// Which part every contact and friction belongs to: the accelerations of a part depend on the mode of no other one.
+#[derive(Clone, Debug, Default)]
+pub struct Parts {
+    /// Per contact.
+    pub contacts: Vec<usize>,
+    /// Per friction.
+    pub frictions: Vec<usize>,
+    /// How many there are.
+    pub count: usize,
+}
+
+impl Parts {
+    /// The parts of a system: inertia, rows and what they press hold coordinates together.
+    pub fn of(d: &Description) -> Self {
+        let mut sets = Sets((0..d.coordinates.len() + d.rows.len()).collect());
+        let row = |index: usize| d.coordinates.len() + index;
+        for &(i, j, _) in d.mass {
+            sets.join(i, j);
+        }
+        for (index, one) in d.rows.iter().enumerate() {
+            for &(j, _) in one.jacobian {
+                sets.join(row(index), j);
+            }
+        }
+        for coupling in d.couplings {
+            sets.join(row(coupling.row), coupling.coordinate);
+        }
+        for friction in d.frictions {
+            for component in friction.rows() {
+                sets.join(row(friction.row), row(component));
+            }
+            for presses in friction.normal.rows(d) {
+                sets.join(row(friction.row), row(presses));
+            }
+        }
+        let mut names: Vec<usize> = Vec::new();
+        let mut part = |index: usize| {
+            let root = sets.root(row(index));
+            names
+                .iter()
+                .position(|&name| name == root)
+                .unwrap_or_else(|| {
+                    names.push(root);
+                    names.len() - 1
+                })
+        };
+        let contacts = d.contacts.iter().map(|contact| part(contact.row)).collect();
+        let frictions = d
+            .frictions
+            .iter()
+            .map(|friction| part(friction.row))
+            .collect();
+        let count = names.len();
+        Self {
+            contacts,
+            frictions,
+            count,
+        }
+    }
+
+    /// Whether something has happened to a part of which its present mode does not know.
+    pub fn is_concerned(
+        &self,
+        part: usize,
+        here: SwitchContext<'_, impl Copy>,
+        d: &Description,
+    ) -> bool {
+        let SwitchContext { present, facts, .. } = here;
+        let roots = facts.located.iter().chain(&facts.touched);
+        let is_here = |guard: &Guard| match *guard {
+            Guard::Gap(c) | Guard::Normal(c) | Guard::Region(c) => self.contacts[c] == part,
+            Guard::StickUpper(f)
+            | Guard::StickLower(f)
+            | Guard::StickCone(f)
+            | Guard::Slip(f)
+            | Guard::NormalForceSign(f) => self.frictions[f] == part,
+            Guard::Branch(_) | Guard::Stop(..) | Guard::Mark(..) | Guard::Composite(_) => false,
+        };
+        let mut contacts = (0..self.contacts.len()).filter(|&c| self.contacts[c] == part);
+        let mut frictions = (0..self.frictions.len()).filter(|&f| self.frictions[f] == part);
+        roots.into_iter().any(is_here)
+            || contacts.any(|c| {
+                facts.touching[c] != present.contacts[c] || facts.arriving[c] || facts.parting[c]
+            })
+            || frictions.any(|f| {
+                let idle = present.frictions[f] == FrictionMode::Inactive;
+                let acts = d.frictions[f].normal.presses(|c| facts.touching[c]);
+                idle && acts || !idle && facts.resting[f] != present.frictions[f].rests()
+            })
+    }
+
+    /// Takes everything of a part out of a mode.
+    pub fn release(&self, part: usize, mode: &mut Mode) {
+        let contacts = mode.contacts.iter_mut().zip(&self.contacts);
+        contacts
+            .filter(|(_, of)| **of == part)
+            .for_each(|(closed, _)| *closed = false);
+        let frictions = mode.frictions.iter_mut().zip(&self.frictions);
+        frictions
+            .filter(|(_, of)| **of == part)
+            .for_each(|(state, _)| *state = FrictionMode::Inactive);
+    }
+}
+
+/// Disjoint sets, each with the way to its root.
+struct Sets(Vec<usize>);
+
+impl Sets {
+    fn root(&self, mut item: usize) -> usize {
+        while self.0[item] != item {
+            item = self.0[item];
+        }
+        item
+    }
+
+    fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.root(a), self.root(b));
+        self.0[a] = b;
+    }
+}
