@@ -34,6 +34,9 @@ const LAST_TERMS: f64 = 1e-6;
 /// The terms of this order are no larger than this share, where directions turn: what turns by a radian is looked at four times.
 const TURNING: (usize, f64) = (8, 1e-2);
 
+/// So many steps later it is seen whether forces are allowed that are not at the instant.
+const LATER: [f64; 3] = [1e-6, 1e-4, 1e-2];
+
 impl<T: Scalar> Run<T> {
     /// Looks at the forces at the last value of the dynamics, in the mode of the run; whether other guards decide than before.
     fn look_at_redundant_forces(&mut self) -> bool {
@@ -223,12 +226,30 @@ impl<T: Scalar> Run<T> {
         // Its value, which has been located, is known to less than the margin of the programme.
         let falls = critical.is_some_and(|composite| self.joint_value(&composite) < ROOT);
         let keeps = has_open && !falls;
-        let turns = keeps || self.switcher.redundant.turn(&mut self.dynamics, ROOT);
+        let turns =
+            keeps || self.switcher.redundant.turn(&mut self.dynamics, ROOT) || self.turns_soon()?;
         if turns {
             self.locator.polynomials.composites.clear();
             self.list_guards();
         }
         Ok(turns)
+    }
+
+    /// Whether other signs of constraint forces allow forces from here on which allow none but zero at this instant, where what presses a friction turns; they
+    /// are then taken.
+    fn turns_soon(&mut self) -> Result<bool, Error> {
+        let step = &self.stepper.step;
+        let part = ((self.now.t - step.t) / step.h).value();
+        let turns = |run: &mut Self, later: &f64| {
+            run.evaluate_end(part + later).is_ok()
+                && run.switcher.redundant.turn(&mut run.dynamics, ROOT)
+        };
+        let found = LATER.iter().any(|later| turns(self, later));
+        self.evaluate()?;
+        let redundant = &mut self.switcher.redundant;
+        redundant.follow(&mut self.dynamics);
+        let critical = redundant.critical(BORDER);
+        Ok(found && critical.is_none_or(|composite| self.joint_value(&composite) >= -ROOT))
     }
 
     /// Locates where between these parts of the step forces cease to keep all bounds, and adds the composite guard that says so; `dynamics` and

@@ -4,7 +4,7 @@ use super::state;
 use lagrange_core::prelude::*;
 use lagrange_tests::{
     Random, SINGLE_METHODS, TOLERANCES, agm, agree, all_agree, certified, event, methods_at,
-    run_by, words,
+    run_by, times, words,
 };
 
 /// A block on a spring on a rough floor, under a load.
@@ -249,6 +249,95 @@ fn a_crate_tips_a_little_before_it_would_slide() {
                 tips,
                 10.0 * tolerance,
             );
+            certified(&what, &run);
+        }
+    }
+}
+
+/// A body that two brakes hold together, pushed by what a load becomes at an instant.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2/2,
+    friction(one: slip = der(x), limit = (share, share/2)),
+    friction(other: slip = der(x), limit = (1 - share, (1 - share)/2)),
+    force(push: x = side*if(form <= 0, min(t, 1), 1 - abs(t - 1))),
+    start(rest),
+)]
+struct TwoBrakes {
+    share: f64,
+    side: f64,
+    form: f64,
+}
+
+/// A load that grows to what both hold together, exactly, and then no further: they hold it as one of that strength would.
+#[test]
+fn brakes_hold_a_load_that_stops_growing_at_their_limit() {
+    for share in [0.75, 0.5, 1.0, 0.125] {
+        for side in [1.0, -1.0] {
+            for form in [0.0, 1.0] {
+                let brakes = TwoBrakes { share, side, form };
+                let (method, tolerance) = (SINGLE_METHODS[0], 1e-9);
+                let run = run_by(
+                    &brakes,
+                    (method, tolerance),
+                    brakes.at(TwoBrakes::REST),
+                    2.0,
+                );
+                let what = format!("{brakes:?}");
+                agree(&what, run.final_state().q[0], 0.0, 0.0);
+                let slips = ["one", "other"].map(|brake| times(&run, brake, "slips"));
+                assert!(slips.iter().all(Vec::is_empty), "{what}: {:?}", words(&run));
+                certified(&what, &run);
+            }
+        }
+    }
+}
+
+/// A body in two guides with friction, one of which also holds across the other: so the load of that passes zero.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, z),
+    kinetic = mass/2*(der(x)^2 + der(y)^2 + der(z)^2),
+    constraint(guide: y == 0),
+    constraint(base: z == 0),
+    force(load: y = t - 1),
+    force(weight: z = -20),
+    force(push: x = strength),
+    friction(side on guide: slip = der(x), static = mu),
+    friction(sole on base: slip = der(x) + lean*der(y), static = mu, kinetic = rub),
+    start(rest),
+)]
+struct Guided {
+    mass: f64,
+    strength: f64,
+    lean: f64,
+    mu: f64,
+    rub: f64,
+}
+
+/// The sole alone holds up to 20 μ. That the load of the guide passes zero, where the guide holds nothing, ends nothing.
+#[test]
+fn a_guide_whose_load_passes_zero_lets_the_other_one_hold() {
+    for (strength, lean, mu, rub) in [
+        (1.9, 1.0, 0.1, 0.09),
+        (1.9, 1.0, 0.1, 0.1),
+        (1.5, 1.0, 0.1, 0.05),
+        (1.7, -0.6, 0.1, 0.08),
+        (2.7, 0.5, 0.15, 0.1),
+    ] {
+        let body = Guided {
+            mass: 1.0,
+            strength,
+            lean,
+            mu,
+            rub,
+        };
+        for (method, tolerance) in SINGLE_METHODS.map(|method| (method, 1e-9)) {
+            let what = format!("{body:?} by {method}");
+            let run = run_by(&body, (method, tolerance), body.at(Guided::REST), 12.0);
+            assert!(words(&run).is_empty(), "{what}: {:?}", words(&run));
+            agree(&what, run.final_state().q[0], 0.0, 0.0);
             certified(&what, &run);
         }
     }
