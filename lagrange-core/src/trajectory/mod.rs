@@ -106,7 +106,7 @@ pub struct Trajectory<T: Scalar = f64> {
     pub(crate) effects: Effects,
     /// What was asked of the run.
     pub(crate) asked: Asked,
-    /// Whether the polynomials of the steps are kept; if not, a segment is a whole phase.
+    /// Whether the polynomials of the steps are kept; if not, a segment is a whole phase, and its polynomial the state with which it begins.
     pub(crate) recorded: bool,
     pub(crate) first_time: T,
     pub(crate) last_time: T,
@@ -167,27 +167,29 @@ impl<T: Scalar> Trajectory<T> {
     pub(crate) fn push(&mut self, step: &StepPolynomial<T>, end: T, holds_rows_aside: bool) {
         let mode = self.modes.len() - 1;
         if !self.recorded {
-            let last = self.segments.pop_if(|last| last.mode == mode);
-            let t = last.map_or(step.t, |last| last.t);
-            self.segments.push(Segment {
-                t,
-                h: step.time(end) - t,
-                end: num_traits::one(),
-                degree: 0,
-                offset: 0,
-                mode,
-                holds_rows_aside,
-            });
-            return;
+            // A step of no length may end in an impact, after which the same mode begins with other velocities.
+            let phase = self.segments.last_mut();
+            let goes_on = |phase: &&mut Segment<T>| phase.mode == mode && phase.h.value() > 0.0;
+            if let Some(phase) = phase.filter(goes_on) {
+                phase.h = step.time(end) - phase.t;
+                return;
+            }
         }
+        let (h, end, degree) = match self.recorded {
+            true => (step.h, end, step.degree),
+            false => (step.time(end) - step.t, num_traits::one(), 0),
+        };
         let offset = self.coefficients.len();
-        self.coefficients.extend_from_slice(step.q.as_slice());
-        self.coefficients.extend_from_slice(step.v.as_slice());
+        for polynomials in [&step.q, &step.v] {
+            for polynomial in polynomials.chunks_exact(step.degree + 1) {
+                self.coefficients.extend_from_slice(&polynomial[..=degree]);
+            }
+        }
         self.segments.push(Segment {
             t: step.t,
-            h: step.h,
+            h,
             end,
-            degree: step.degree,
+            degree,
             offset,
             mode,
             holds_rows_aside,

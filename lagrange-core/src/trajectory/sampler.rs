@@ -90,15 +90,10 @@ impl<'a, T: Scalar> Sampler<'a, T> {
     pub(crate) fn evaluate_at(&mut self, t: f64) -> Result<Instant<T>, Error> {
         let trajectory = self.trajectory;
         let (first, last) = (trajectory.first_time(), trajectory.last_time());
-        if !trajectory.recorded {
-            return match t {
-                _ if t == last => self.evaluate_end(),
-                _ if t == first => self.evaluate(
-                    trajectory.first_time,
-                    &trajectory.modes[0],
-                    &trajectory.start,
-                ),
-                _ => Err(Error::NotRecorded),
+        if !trajectory.recorded && t != first {
+            return match t == last {
+                true => self.evaluate_end(),
+                false => Err(Error::NotRecorded),
             };
         }
         match self.locate(t)? {
