@@ -204,7 +204,7 @@ impl<T: Scalar> Run<T> {
             true => self.settings.tolerance * (step.t.value() / step.h.value()).abs().max(1.0),
             false => resolution,
         };
-        let starts = self.recorder.trajectory.segments.is_empty();
+        let starts = self.recorder.trajectory.work.steps == 0;
         let known = starts || logged || comes_back_at_once(curve, was_below);
         known.then(|| zero_at_start(curve, within)).flatten()
     }

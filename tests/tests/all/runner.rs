@@ -245,6 +245,41 @@ fn pieces_follow_each_other() {
     assert!(pieces > 5, "{pieces} pieces");
 }
 
+/// A mark is passed half-way to a stop, with the speed 1.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    start(goes: der(x) = 1),
+    mark(half: x - way / 2),
+    stop(there: x >= way),
+)]
+struct Way {
+    way: f64,
+}
+
+/// Steps of 0.1 s end, to rounding, where the mark and the stop are.
+#[test]
+fn pieces_have_what_happens_where_they_are_cut() {
+    for method in ["rk4:0.1", "gauss6:0.1", "radau5"] {
+        let method: Method = method.parse().expect("a method");
+        for tenths in [2, 4, 6, 8, 12, 14, 16, 22] {
+            let scene = Way {
+                way: 0.1 * f64::from(tenths),
+            };
+            let mut runner = Simulation::new(&scene).method(method).runner();
+            let mut times = Vec::new();
+            let mut look = |piece: &Trajectory| times.extend(piece.events().iter().map(|e| e.time));
+            let outcome = runner.run_in_pieces(scene.at(Way::GOES), 0.0..9.0, 1, &mut look);
+            outcome.expect("a run");
+            look(runner.trajectory());
+            assert_eq!(times.len(), 2, "{method:?}, {}: {times:?}", scene.way);
+            agree("mark", times[0], scene.way / 2.0, 1e-12);
+            agree("stop", times[1], scene.way, 1e-12);
+        }
+    }
+}
+
 /// A ball that never comes to rest.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
