@@ -80,6 +80,53 @@ fn another_scene_in_the_same_runner_is_that_scene() {
     }
 }
 
+/// A sled on three feet slides to rest and is pushed ever harder.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, phi),
+    kinetic = (der(x)^2 + der(y)^2) / 2 + der(phi)^2 / 8,
+    potential = gravity * y,
+    contact(rear: y - 0.4 * sin(phi) >= 0.2),
+    contact(middle: y >= 0.2),
+    contact(front: y + 0.4 * sin(phi) >= 0.2),
+    friction(rear_grip on rear: slip = der(x), static = mu),
+    friction(middle_grip on middle: slip = der(x), static = 1.4 * mu),
+    friction(front_grip on front: slip = der(x), static = 0.6 * mu),
+    force(hand: (push * t, 0) at (x, y + 0.1)),
+    start(slides: y = 0.2, der(x) = 1.2),
+)]
+struct ThreeFeet {
+    gravity: f64,
+    mu: f64,
+    push: f64,
+}
+
+/// A run that comes to rest and slips again, after one in which the same sled was a hundred times heavier.
+#[test]
+fn loads_of_an_earlier_run_are_forgotten() {
+    let heavy = ThreeFeet {
+        gravity: 900.0,
+        mu: 0.3,
+        push: 4.0,
+    };
+    let mut runner = Simulation::new(&heavy).runner();
+    for k in 0..20 {
+        let light = ThreeFeet {
+            gravity: 10.4 + 0.04 * f64::from(k),
+            mu: 0.344 + 0.001 * f64::from(k),
+            push: 5.3 + 0.02 * f64::from(k),
+        };
+        runner.set_scene(&heavy);
+        let first = runner.run(heavy.at(ThreeFeet::SLIDES), 0.0..2.0);
+        first.expect("runs");
+        runner.set_scene(&light);
+        let slides = light.at(ThreeFeet::SLIDES);
+        let alone = Simulation::new(&light).run(&slides, 0.0..2.0);
+        let again = runner.run(&slides, 0.0..2.0).expect("runs");
+        assert_same(again, &alone.expect("runs"));
+    }
+}
+
 #[test]
 fn what_was_not_recorded_is_refused() {
     let scene = MassOnShell::default();

@@ -145,9 +145,10 @@ impl<T: Scalar> Decider<T> {
         }
     }
 
-    /// Forgets the state at hand.
+    /// Forgets what belongs to another motion.
     pub fn restart(&mut self) {
         self.sized = false;
+        self.redundant.restart();
     }
 
     /// Finds the mode in which the motion goes on, into [`Self::decision`].

@@ -53,6 +53,7 @@ impl<T: Scalar> RedundantForces<T> {
     /// Forgets what belongs to another motion.
     pub fn restart(&mut self) {
         self.clear();
+        self.signs.clear();
         (self.largest_drive, self.largest_force) = (0.0, 0.0);
     }
 
