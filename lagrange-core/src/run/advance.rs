@@ -3,7 +3,7 @@
 use super::hit::Hit;
 use super::switch::Switcher;
 use super::{Progress, Run};
-use crate::arithmetic::{Scalar, epsilon};
+use crate::arithmetic::{Scalar, derivatives, epsilon};
 use crate::error::Error;
 use crate::modes::guard::Guard;
 use crate::trajectory::{EventKind, Subject};
@@ -87,7 +87,11 @@ impl<T: Scalar> Run<T> {
             let whole = end == 1.0;
             self.now.t = self.stepper.step.t + self.stepper.step.h * exact;
             if whole && self.is_spent(self.end - self.now.t.value()) {
-                self.now.t = T::from_f64(self.end);
+                let moves = match *hit {
+                    Hit::Nothing | Hit::Turned(_) => T::zero(),
+                    Hit::Guards(_) | Hit::Stop(..) => derivatives(self.now.t),
+                };
+                self.now.t = T::from_f64(self.end) + moves;
             }
             // Time may be too coarse for the step.
             let (before, now) = (self.stepper.step.t.value(), self.now.t.value());

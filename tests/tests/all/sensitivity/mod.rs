@@ -1,6 +1,7 @@
 //! Derivatives of states and of the instants of events by parameters and start, through switches and impacts.
 
 mod ball;
+mod instants;
 mod platform;
 mod rest_in_space;
 mod shared_loads;
