@@ -1,7 +1,8 @@
 //! The instant of an event as a number of the run's own scalar.
 //!
 //! A root is located in doubles. It depends on parameters and start as the guard does, dt/dp = −(∂g/∂p)/ġ: a Newton step from
-//! the located root in the run's scalar, which changes derivatives only. State and time are then taken there, and an impact
+//! the located root in the run's scalar, which changes derivatives only. The slope ġ is that of the guard itself: its polynomial is as
+//! good as where it vanishes needs, and no better. State and time are then taken there, and an impact
 //! or switch acts on them; the motion that follows has all terms of a saltation matrix (Leine & Nijmeijer 2004, chapter 7).
 
 use super::Run;
@@ -13,8 +14,12 @@ use crate::modes::exact::{exact, slip};
 use crate::modes::guard::Guard;
 use core::ops::Range;
 
-/// Newton steps beyond the order of the derivatives, because the slope is known to interpolation only.
+/// Newton steps beyond the order of the derivatives, because slopes are taken from differences.
 const MORE_STEPS: usize = 2;
+/// The slope at a root is taken from so far before it, as a share of the way to it.
+const SHARE: f64 = 1e-3;
+/// A guard whose slope at its root is less than this share of that just before only touches zero.
+const TOUCHES: f64 = 1e-2;
 
 impl<T: Scalar> Run<T> {
     /// The part of the step at which it ends, with derivatives; the state there in `scratch`, evaluated if that at the located
@@ -24,82 +29,72 @@ impl<T: Scalar> Run<T> {
         if T::DERIVATIVES == 0 || end == 0.0 {
             return T::from_f64(end);
         }
-        let h = self.stepper.step.h.value();
-        let (guard, slope) = match *hit {
+        let guard = match *hit {
             // At the last instant the time itself has no derivatives.
             Hit::Nothing | Hit::Turned(_) => {
-                if end < 1.0 || !self.is_spent(self.end - self.now.t.value() - h) {
+                let h = self.stepper.step.h;
+                if end < 1.0 || !self.is_spent(self.end - self.now.t.value() - h.value()) {
                     return T::from_f64(end);
                 }
-                let s = T::one()
-                    - derivatives(self.stepper.step.t + self.stepper.step.h) / self.stepper.step.h;
+                let s = T::one() - derivatives(self.stepper.step.t + h) / h;
                 return self.settle_end(s, end);
             }
             Hit::Guards(_) => {
-                if let Some(rest) = self.locator.rests.first() {
-                    (Guard::Slip(rest.friction), rest.slope * h)
-                } else if let Some(&guard) = self.locator.fallen.first()
-                    && let Some(curve) = self.locator.polynomials.of(guard)
-                {
-                    (guard, slope(curve, end))
-                } else {
-                    return T::from_f64(end);
-                }
+                let rest = self.locator.rests.first();
+                let rest = rest.map(|rest| Guard::Slip(rest.friction));
+                rest.or(self.locator.fallen.first().copied())
             }
             Hit::Stop(i, _) => {
                 let terms = 0..self.description().stops[i].terms.len();
-                match nearest(terms, end, |k| self.locator.polynomials.stop_term(i, k)) {
-                    Some((k, slope)) => (Guard::Stop(i, k), slope),
-                    None => return T::from_f64(end),
-                }
+                let nearest = nearest(terms, end, |k| self.locator.polynomials.stop_term(i, k));
+                nearest.map(|(k, _)| Guard::Stop(i, k))
             }
         };
-        let slope = match guard {
-            Guard::Composite(_) => self.slope_before(guard, end).unwrap_or(slope),
-            _ => slope,
+        let root = guard.and_then(|guard| self.root(guard, end));
+        let Some(s) = root else {
+            return T::from_f64(end);
         };
-        let s = self.root(guard, slope, end);
         self.settle_end(s, end)
     }
 
-    /// What a guard changes by per step just before part `end` of the step. A composite guard that has been found anew at its root has other weights
-    /// than its polynomial.
-    fn slope_before(&mut self, guard: Guard, end: f64) -> Option<f64> {
-        /// The share of the way to the root over which the slope is taken.
-        const SHARE: f64 = 1e-4;
-        let [before, there] = [1.0 - SHARE, 1.0].map(|share| T::from_f64(share * end));
-        let (before, there) = (
-            self.exact_guard(guard, before)?,
-            self.exact_guard(guard, there)?,
-        );
-        Some((there - before).value() / (SHARE * end))
-    }
-
-    /// A located root of `guard`, which changes by `slope` per step there, with derivatives. The value stays.
-    pub(super) fn root(&mut self, guard: Guard, slope: f64, located: f64) -> T {
+    /// A located root of `guard` with derivatives; where the guard only touches zero, those of the instant at which it turns. Nothing where it has no
+    /// value, or no slope, near there.
+    pub(super) fn root(&mut self, guard: Guard, located: f64) -> Option<T> {
         let mut s = T::from_f64(located);
-        if T::DERIVATIVES == 0 || !(slope != 0.0 && slope.is_finite()) {
-            return s;
+        let apart = match located > 0.0 {
+            true => SHARE * located,
+            false => -SHARE,
+        };
+        let [far, near, there] = self.up_to(guard, s, apart)?.map(T::value);
+        let (slope, bend) = (3.0 * there - 4.0 * near + far, there - 2.0 * near + far);
+        let touches = slope.abs() <= TOUCHES * 2.0 * (there - near).abs();
+        let factor = match touches {
+            true => 0.5 * apart / bend,
+            false => 2.0 * apart / slope,
+        };
+        if !factor.is_finite() {
+            return None;
         }
         for _ in 0..T::DERIVATIVES + MORE_STEPS {
-            let Some(value) = self.exact_guard(guard, s) else {
-                return T::from_f64(located);
+            let vanishes = if touches {
+                let [far, near, there] = self.up_to(guard, s, apart)?;
+                T::from_f64(3.0) * there - T::from_f64(4.0) * near + far
+            } else {
+                self.exact_guard(guard, s)?
             };
-            s -= derivatives(value) / T::from_f64(slope);
+            s -= derivatives(vanishes) * T::from_f64(factor);
         }
-        s
+        Some(s)
     }
 
-    /// Part `s` of the step, where mark `mark` was located, with derivatives.
-    pub(super) fn exact_mark(&mut self, mark: usize, s: f64) -> T {
-        if T::DERIVATIVES == 0 || s == 0.0 {
-            return T::from_f64(s);
-        }
-        let terms = 0..self.description().marks[mark].terms.len();
-        match nearest(terms, s, |k| self.locator.polynomials.mark_term(mark, k)) {
-            Some((k, slope)) => self.root(Guard::Mark(mark, k), slope, s),
-            None => T::from_f64(s),
-        }
+    /// A guard at two places so far before part `s` of the step, and there.
+    fn up_to(&mut self, guard: Guard, s: T, apart: f64) -> Option<[T; 3]> {
+        let [far, near] = [2.0, 1.0].map(|times| s - T::from_f64(times * apart));
+        Some([
+            self.exact_guard(guard, far)?,
+            self.exact_guard(guard, near)?,
+            self.exact_guard(guard, s)?,
+        ])
     }
 
     /// A guard at part `s` of the step.
