@@ -31,7 +31,7 @@ pub(super) fn stops(sheet: &mut Sheet) -> Vec<(Vec<OutputId>, NeedId)> {
         .system
         .stops
         .iter()
-        .map(|s| (s.name.clone(), s.terms.clone()))
+        .map(|s| (s.name.clone(), s.zeros, s.terms.clone()))
         .collect();
     let needs = sheet.needs.stops.clone();
     watches(sheet, "stop", items, needs)
@@ -43,7 +43,7 @@ pub(super) fn marks(sheet: &mut Sheet) -> Vec<(Vec<OutputId>, NeedId)> {
         .system
         .marks
         .iter()
-        .map(|m| (m.name.clone(), m.terms.clone()))
+        .map(|m| (m.name.clone(), m.zeros, m.terms.clone()))
         .collect();
     let needs = sheet.needs.marks.clone();
     watches(sheet, "mark", items, needs)
@@ -52,13 +52,14 @@ pub(super) fn marks(sheet: &mut Sheet) -> Vec<(Vec<OutputId>, NeedId)> {
 fn watches(
     sheet: &mut Sheet,
     kind: &str,
-    items: Vec<(ItemName, Vec<ExprId>)>,
+    items: Vec<(ItemName, bool, Vec<ExprId>)>,
     needs: Vec<NeedId>,
 ) -> Vec<(Vec<OutputId>, NeedId)> {
     let mut watches = Vec::new();
-    for ((name, terms), need) in items.into_iter().zip(needs) {
+    for ((name, zeros, terms), need) in items.into_iter().zip(needs) {
         let mut outputs = Vec::new();
         for (k, term) in terms.into_iter().enumerate() {
+            let term = sheet.system.pool.with_simple_zeros(term, !zeros);
             let term = sheet.reported(term);
             outputs.push(sheet.report(format!("{kind}[{}, {k}]", name.text), need, term));
         }

@@ -33,6 +33,7 @@ mod sum;
 mod table;
 mod traverse;
 mod trigonometry;
+mod zeros;
 
 pub use node::{ExprId, Function, Node, Symbol};
 pub use pool::{MOST_OPERANDS, Pool};

@@ -277,3 +277,48 @@ fn a_mark_is_passed_where_a_friction_reverses() {
         }
     }
 }
+
+/// A swing, x = cos t, that is watched by powers.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    potential = x^2 / 2,
+    mark(once: x - place),
+    mark(twice: 3 * (x - place)^2),
+    mark(thrice: (x - place)^3 / 7),
+    mark(falls: (x - place)^5 <= 0),
+    start(out: x = 1),
+)]
+struct Swing {
+    place: f64,
+}
+
+/// None of them but the first has a slope there.
+#[test]
+fn powers_are_zero_where_their_bases_are() {
+    let fixed = [
+        Method::RungeKutta4 { step: 0.01 },
+        Method::Gauss6 { step: 0.05 },
+    ];
+    for place in [0.1, -0.37, 0.8] {
+        let swing = Swing { place };
+        let first = place.acos();
+        for (method, tolerance) in methods_at(METHODS.into_iter().chain(fixed), TOLERANCES) {
+            let run = run_by(&swing, (method, tolerance), swing.at(Swing::OUT), 6.2);
+            let what = format!("{place} by {method} at {tolerance:e}");
+            for mark in ["once", "twice", "thrice"] {
+                let times = times(&run, mark, "mark");
+                let expected = [first, core::f64::consts::TAU - first];
+                all_agree(
+                    format!("{what}: {mark}"),
+                    &times,
+                    &expected,
+                    (10.0 * tolerance).max(1e-8),
+                );
+            }
+            let falls = times(&run, "falls", "mark");
+            all_agree(&what, &falls, &[first], (10.0 * tolerance).max(1e-8));
+        }
+    }
+}

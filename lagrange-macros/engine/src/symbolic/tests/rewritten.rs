@@ -245,3 +245,26 @@ fn total_time_derivative_follows_the_chain_rule() {
     let expected = desk.read("m*a*cos(x) - m*v^2*sin(x) + x + t*v");
     assert_eq!(total, expected);
 }
+
+#[test]
+fn zeros_are_those_of() {
+    let mut desk = Desk::default();
+    for (text, zeros, signs) in [
+        ("(x - y)^3", "x - y", "x - y"),
+        ("(x - y)^2", "x - y", "(x - y)^2"),
+        (
+            "-2*(x - y)^2*z^3/w^2",
+            "-2*(x - y)*z/w^2",
+            "-2*(x - y)^2*z/w^2",
+        ),
+        ("x^(3/2)", "x^(3/2)", "x^(3/2)"),
+        ("x^2 - y^2", "x^2 - y^2", "x^2 - y^2"),
+        ("sin(x)^5", "sin(x)", "sin(x)"),
+    ] {
+        let e = desk.read(text);
+        for (signed, expected) in [(false, zeros), (true, signs)] {
+            let simple = desk.pool.with_simple_zeros(e, signed);
+            assert_eq!(simple, desk.read(expected), "{text}, {signed}");
+        }
+    }
+}
