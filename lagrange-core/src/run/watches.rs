@@ -100,7 +100,12 @@ impl<T: Scalar> Run<T> {
                 let below = self.locator.mark_below[i][0];
                 let known = self.known_zero(curve, below, Some((i, 0)), resolution);
                 let begins_below = side_of_start(curve, resolution);
-                if known.is_none() && begins_below.is_some_and(|begins| begins != below) {
+                let passes = known.is_none() && begins_below.is_some_and(|begins| begins != below);
+                let known = match passes {
+                    true => zero_at_start(curve, resolution),
+                    false => known,
+                };
+                if passes {
                     list.push((i, 0.0));
                 }
                 let roots = all.iter();

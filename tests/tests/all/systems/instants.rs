@@ -322,3 +322,39 @@ fn powers_are_zero_where_their_bases_are() {
         }
     }
 }
+
+/// A wind across a track blows beyond a place that is marked.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    force(wind: y = if(x >= place, 2, 0)),
+    mark(passes: x - place),
+    start(goes: der(x) = speed),
+)]
+struct Track {
+    place: f64,
+    speed: f64,
+}
+
+/// Steps of 0.1 s end, to rounding, at the place: the mark is passed in this step or the next one.
+#[test]
+fn a_mark_where_a_force_changes_is_passed_once() {
+    for method in ["rk4:0.1", "gauss6:0.1", "auto", "dopri5", "radau5"] {
+        for (tenths, speed) in (1..=24).flat_map(|tenths| [1.0, 1.7].map(|speed| (tenths, speed))) {
+            let time = 0.1 * f64::from(tenths);
+            let place = speed * time;
+            let track = Track { place, speed };
+            let run = run_by(&track, (method, 1e-9), track.at(Track::GOES), 2.5);
+            let what = format!("{place} at {speed} by {method}");
+            assert_eq!(
+                words(&run),
+                ["passes mark", "x >= place branches"],
+                "{what}"
+            );
+            for event in run.events() {
+                agree(&what, event.time, time, 1e-12);
+            }
+        }
+    }
+}
