@@ -77,10 +77,13 @@ impl<T: Scalar> Examination<'_, T> {
                     let found = numbers(&event.state);
                     if let EventKind::Accumulates { .. } = event.kind {
                         // The impacts that are not followed take away the velocity that is left. Until they have ended the
-                        // motion goes on with it.
+                        // motion goes on with it, for a time that is known as both its ends are.
                         let left = when - self.time;
-                        for (q, v) in self.expected.q.iter_mut().zip(&self.expected.v) {
+                        let known = self.finest * when.abs();
+                        let positions = self.expected.q.iter_mut().zip(&mut self.rounding.q);
+                        for ((q, rounding), v) in positions.zip(&self.expected.v) {
                             *q += v * left;
+                            *rounding += v.abs() * known;
                         }
                         self.expected.v.clone_from(&found.v);
                     }

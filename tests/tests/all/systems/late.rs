@@ -82,3 +82,42 @@ fn a_free_flight_is_one_step_up_to_any_time() {
         assert_eq!(run.work().steps, 1, "{end:e}");
     }
 }
+
+/// A ball that is thrown along a floor, and whose bounces die out.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = gravity * y,
+    contact(floor: y >= 0, restitution = bounce),
+    start(thrown: y = 0.4, der(x) = 6),
+)]
+struct ThrownBall {
+    gravity: f64,
+    bounce: f64,
+}
+
+/// The bounces end √(2h/g) (1 + e)/(1 − e) after the start. While the last of them accumulate the ball goes on along the floor, by what the
+/// resolution of the time makes of that.
+#[test]
+fn bounces_die_out_at_any_time() {
+    for (gravity, bounce) in [(9.81, 0.5), (3.7, 0.3), (1.6, 0.7)] {
+        let ball = ThrownBall { gravity, bounce };
+        let fall = (2.0 * 0.4 / gravity).sqrt();
+        let lasts = fall * (1.0 + bounce) / (1.0 - bounce);
+        for start in [0.0, 1e6, 3e8, 1e9, 4e9] {
+            let span = start..start + lasts + 2.0;
+            let run = Simulation::new(&ball).run(ball.at(ThrownBall::THROWN), span);
+            let run = run.expect("a run");
+            let accumulates =
+                |event: &&Event<f64>| matches!(event.kind, EventKind::Accumulates { .. });
+            let end = run.events().iter().find(accumulates).expect("rests").time;
+            agree("end", end - start, lasts, 1e-9 + 2e-15 * start);
+            let certificate = run.verify(1).expect("recorded");
+            assert!(
+                certificate.holds(),
+                "{ball:?} from {start:e}: {certificate}"
+            );
+        }
+    }
+}
