@@ -4,7 +4,7 @@ use super::{Error, Level, NotFinite, Shortest};
 use core::fmt;
 
 /// Times that are farther apart than this, s, leave steps no room.
-const UNRESOLVED: f64 = 1e-6;
+const UNRESOLVED: f64 = 1e-8;
 
 /// A number with four digits, with an exponent where it is very small or very large.
 fn short(value: f64) -> String {

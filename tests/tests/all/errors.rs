@@ -168,12 +168,16 @@ fn what_is_beyond_all_numbers_is_called_so() {
         late.to_string().contains("count them from a later instant"),
         "{late}"
     );
-    let singular = Error::StepTooSmall {
-        time: 1.0,
-        step: 1e-16,
+    // Those of a clock that counts from 1970 are a quarter of a microsecond apart.
+    let fell = |time: f64, step: f64| Error::StepTooSmall {
+        time,
+        step,
         mode: String::new(),
     };
-    assert!(singular.to_string().contains("tolerance is too tight"));
+    let late = fell(1.7e9, 6e-8).to_string();
+    assert!(late.contains("count them from a later instant"), "{late}");
+    let singular = fell(1.0, 1e-16).to_string();
+    assert!(singular.contains("tolerance is too tight"), "{singular}");
 }
 
 #[test]
