@@ -4,8 +4,10 @@ use super::Run;
 use crate::arithmetic::Scalar;
 use crate::error::Error;
 
-/// The first look is after this share of the steps that a run may take.
+/// The first look is after this share of the steps that a run may take,
 const FIRST: f64 = 1e-3;
+/// and after so many: the first ones may be far shorter than those that follow.
+const FEWEST: f64 = 32.0;
 
 /// The end of a run that goes on as it did is out of reach if it needs this many times more than the run may take: motion that dies out is followed by
 /// longer and longer steps.
@@ -32,7 +34,7 @@ impl<T: Scalar> Run<T> {
             self.now.t.value(),
         );
         let missing = (self.end - time) * (made / (time - self.begin));
-        match made >= FIRST * limit && missing > FAR * limit {
+        match made >= FEWEST.max(FIRST * limit) && missing > FAR * limit {
             true => Err(Error::OutOfReach {
                 time,
                 end: self.end,

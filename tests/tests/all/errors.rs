@@ -423,6 +423,34 @@ fn a_run_whose_end_is_out_of_reach_is_told_so() {
     }
 }
 
+/// A mass that is pushed for a moment.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    force(push: x = if(t <= moment, 1, 0)),
+    start(rests),
+)]
+struct Pushed {
+    moment: f64,
+}
+
+#[test]
+fn a_run_that_begins_with_a_short_step_is_within_reach() {
+    for moment in [1e-6, 3e-9] {
+        let scene = Pushed { moment };
+        for method in ["auto", "dop853", "verner98"] {
+            let run = Simulation::new(&scene)
+                .method(method.parse().expect("a method"))
+                .max_steps(1000)
+                .run(scene.at(Pushed::RESTS), 0.0..500.0);
+            let run = run.unwrap_or_else(|failure| panic!("{method}: {failure}"));
+            let x = moment * (500.0 - 0.5 * moment);
+            agree(method, run.final_state().q[0], x, 1e-12);
+        }
+    }
+}
+
 #[test]
 fn a_limit_keeps_the_trajectory_so_far() {
     let scene = shell();
