@@ -31,6 +31,9 @@ impl<T: Scalar> Run<T> {
                 self.begin_piece();
             }
         }
+        if let Some(monitor) = &self.settings.monitor {
+            monitor.tell(self.now.t.value());
+        }
         self.land(into);
         outcome
     }

@@ -49,3 +49,15 @@ fn what_is_stopped_does_not_begin() {
     let failure = run.run(start(&pendulum), 0.0..1.0).expect_err("stopped");
     assert_eq!(failure.error, Error::Interrupted { time: 0.0 });
 }
+
+#[test]
+fn a_run_that_has_ended_has_come_to_its_end() {
+    let pendulum = LongPendulum::default();
+    let monitor = Monitor::default();
+    let simulation = Simulation::new(&pendulum).monitor(&monitor);
+    for until in [3.0, 1.7] {
+        let run = simulation.run(start(&pendulum), 0.0..until);
+        run.expect("a run");
+        assert_eq!(monitor.time(), until);
+    }
+}
