@@ -70,7 +70,9 @@ impl<T: Scalar> Run<T> {
         if let Some((first, _)) = &refused {
             (end, exact) = (*first, T::from_f64(*first));
         }
-        if end > 0.0 {
+        // Also a step that ends where it begins may move derivatives.
+        let moves = exact != T::zero();
+        if moves {
             // The step left there the state at its end, evaluated.
             core::mem::swap(&mut self.now.state, &mut self.stepper.scratch);
             (self.now.valued, self.now.series) = (self.locator.rests.is_empty(), Progress::None);
@@ -83,15 +85,15 @@ impl<T: Scalar> Run<T> {
         let trajectory = &mut self.recorder.trajectory;
         trajectory.push(&self.stepper.step, exact, aside);
         self.recorder.trajectory.work.steps += 1;
-        if end > 0.0 {
+        if moves {
             let whole = end == 1.0;
             self.now.t = self.stepper.step.t + self.stepper.step.h * exact;
             if whole && self.is_spent(self.end - self.now.t.value()) {
-                let moves = match *hit {
+                let of_event = match *hit {
                     Hit::Nothing | Hit::Turned(_) => T::zero(),
                     Hit::Guards(_) | Hit::Stop(..) => derivatives(self.now.t),
                 };
-                self.now.t = T::from_f64(self.end) + moves;
+                self.now.t = T::from_f64(self.end) + of_event;
             }
             // Time may be too coarse for the step.
             let (before, now) = (self.stepper.step.t.value(), self.now.t.value());

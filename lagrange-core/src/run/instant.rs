@@ -1,9 +1,7 @@
 //! The instant of an event as a number of the run's own scalar.
 //!
 //! A root is located in doubles. It depends on parameters and start as the guard does, dt/dp = −(∂g/∂p)/ġ: a Newton step from
-//! the located root in the run's scalar, which changes derivatives only. The slope ġ is that of the guard itself: its polynomial is as
-//! good as where it vanishes needs, and no better. State and time are then taken there, and an impact
-//! or switch acts on them; the motion that follows has all terms of a saltation matrix (Leine & Nijmeijer 2004, chapter 7).
+//! the located root in the run's scalar, which changes derivatives only. State and time are then taken there, and an impact or switch acts on them; the motion that follows has all terms of a saltation matrix (Leine & Nijmeijer 2004, chapter 7).
 
 use super::Run;
 use super::hit::Hit;
@@ -14,20 +12,27 @@ use crate::modes::exact::{exact, slip};
 use crate::modes::guard::Guard;
 use core::ops::Range;
 
-/// Newton steps beyond the order of the derivatives, because slopes are taken from differences.
+/// Newton steps beyond the order of the derivatives, for slopes that are taken from differences.
 const MORE_STEPS: usize = 2;
-/// The slope at a root is taken from so far before it, as a share of the way to it.
-const SHARE: f64 = 1e-3;
-/// A guard whose slope at its root is less than this share of that just before only touches zero.
-const TOUCHES: f64 = 1e-2;
+/// Guards are compared over this part of the step.
+const APART: f64 = 1e-3;
+/// A guard that turns within this share of the way to its root from there only touches zero.
+const TOUCHES: f64 = 1e-5;
+/// What a step begins with is zero if it changes by so many times as much over that part.
+const VANISHES: f64 = 1e-3;
 
 impl<T: Scalar> Run<T> {
     /// The part of the step at which it ends, with derivatives; the state there in `scratch`, evaluated if that at the located
     /// end was.
     pub(super) fn exact_end(&mut self, hit: &Hit) -> T {
         let end = hit.end();
-        if T::DERIVATIVES == 0 || end == 0.0 {
+        // What follows from something that has happened at this instant has its derivatives, and the start of a run has none.
+        let begins = !self.switcher.stuck.is_empty() || self.recorder.trajectory.work.steps == 0;
+        if T::DERIVATIVES == 0 || end == 0.0 && begins {
             return T::from_f64(end);
+        }
+        if end == 0.0 {
+            self.now.outdate();
         }
         let guard = match *hit {
             // At the last instant the time itself has no derivatives.
@@ -39,50 +44,72 @@ impl<T: Scalar> Run<T> {
                 let s = T::one() - derivatives(self.stepper.step.t + h) / h;
                 return self.settle_end(s, end);
             }
-            Hit::Guards(_) => {
-                let rest = self.locator.rests.first();
-                let rest = rest.map(|rest| Guard::Slip(rest.friction));
-                rest.or(self.locator.fallen.first().copied())
-            }
+            Hit::Guards(_) => match (self.locator.rests.first(), self.locator.fallen.first()) {
+                (Some(rest), _) => Some((Guard::Slip(rest.friction), None)),
+                (None, Some(&guard)) => {
+                    let curve = self.locator.polynomials.of(guard);
+                    Some((guard, curve.map(|curve| slope(curve, end))))
+                }
+                (None, None) => None,
+            },
             Hit::Stop(i, _) => {
                 let terms = 0..self.description().stops[i].terms.len();
                 let nearest = nearest(terms, end, |k| self.locator.polynomials.stop_term(i, k));
-                nearest.map(|(k, _)| Guard::Stop(i, k))
+                nearest.map(|(k, slope)| (Guard::Stop(i, k), Some(slope)))
             }
         };
-        let root = guard.and_then(|guard| self.root(guard, end));
+        let root = guard.and_then(|(guard, slope)| self.root(guard, slope, end));
         let Some(s) = root else {
             return T::from_f64(end);
         };
         self.settle_end(s, end)
     }
 
-    /// A located root of `guard` with derivatives; where the guard only touches zero, those of the instant at which it turns. Nothing where it has no
-    /// value, or no slope, near there.
-    pub(super) fn root(&mut self, guard: Guard, located: f64) -> Option<T> {
+    /// Part `s` of the step, where mark `mark` was located, with derivatives.
+    pub(super) fn exact_mark(&mut self, mark: usize, s: f64) -> T {
+        let located = T::from_f64(s);
+        if T::DERIVATIVES == 0 {
+            return located;
+        }
+        let terms = 0..self.description().marks[mark].terms.len();
+        let nearest = nearest(terms, s, |k| self.locator.polynomials.mark_term(mark, k));
+        let root = nearest.and_then(|(k, slope)| self.root(Guard::Mark(mark, k), Some(slope), s));
+        root.unwrap_or(located)
+    }
+
+    /// A located root of `guard`, whose polynomial has this `slope` there, with derivatives; where the guard only touches zero, those of the instant at
+    /// which it turns. Nothing where it has no value or no slope, or has jumped over zero with the start of the step.
+    ///
+    /// A polynomial by interpolation is good where it vanishes only, and a composite guard that has been found anew at its root has other weights.
+    fn root(&mut self, guard: Guard, slope: Option<f64>, located: f64) -> Option<T> {
         let mut s = T::from_f64(located);
-        let apart = match located > 0.0 {
-            true => SHARE * located,
-            false => -SHARE,
+        let apart = match located > 2.0 * APART {
+            true => APART,
+            false => -APART,
         };
-        let [far, near, there] = self.up_to(guard, s, apart)?.map(T::value);
-        let (slope, bend) = (3.0 * there - 4.0 * near + far, there - 2.0 * near + far);
-        let touches = slope.abs() <= TOUCHES * 2.0 * (there - near).abs();
-        let factor = match touches {
-            true => 0.5 * apart / bend,
-            false => 2.0 * apart / slope,
+        let values = self.up_to(guard, s, apart)?;
+        let [far, near, there] = values.map(T::value);
+        if located == 0.0 && there.abs() > VANISHES * (near - there).abs() {
+            return None;
+        }
+        let bend = (there - 2.0 * near + far) / apart.powi(2);
+        let interpolated = self.locator.polynomials.are_sampled();
+        let slope = match slope {
+            Some(slope) if !interpolated && !matches!(guard, Guard::Composite(_)) => slope,
+            _ => slope_there(values, apart).value(),
         };
-        if !factor.is_finite() {
+        let way = if located > 0.0 { located } else { APART };
+        let touches = slope.abs() <= TOUCHES * way * bend.abs();
+        let rate = if touches { bend } else { slope };
+        if !(rate != 0.0 && rate.is_finite()) {
             return None;
         }
         for _ in 0..T::DERIVATIVES + MORE_STEPS {
-            let vanishes = if touches {
-                let [far, near, there] = self.up_to(guard, s, apart)?;
-                T::from_f64(3.0) * there - T::from_f64(4.0) * near + far
-            } else {
-                self.exact_guard(guard, s)?
+            let vanishes = match touches {
+                true => slope_there(self.up_to(guard, s, apart)?, apart),
+                false => self.exact_guard(guard, s)?,
             };
-            s -= derivatives(vanishes) * T::from_f64(factor);
+            s -= derivatives(vanishes) / T::from_f64(rate);
         }
         Some(s)
     }
@@ -139,6 +166,12 @@ impl<T: Scalar> Run<T> {
         }
         T::from_f64(located)
     }
+}
+
+/// The slope at the last of three places that are so far apart.
+fn slope_there<T: Scalar>([far, near, there]: [T; 3], apart: f64) -> T {
+    let change = T::from_f64(3.0) * there - T::from_f64(4.0) * near + far;
+    change / T::from_f64(2.0 * apart)
 }
 
 /// The term whose root is nearest to `s`, and its slope there.

@@ -276,26 +276,6 @@ impl<T: Scalar> Run<T> {
         self.locator.marks = marks;
     }
 
-    /// Part `s` of the step, where mark `mark` was located, with derivatives. What has jumped over zero at the start is there when that is.
-    fn exact_mark(&mut self, mark: usize, s: f64) -> T {
-        let located = T::from_f64(s);
-        if T::DERIVATIVES == 0 {
-            return located;
-        }
-        let terms = 0..self.description().marks[mark].terms.len();
-        let curve = |k| self.locator.polynomials.mark_term(mark, k);
-        let Some((term, _)) = nearest(terms, s, curve) else {
-            return located;
-        };
-        let start = curve(term).first().copied().unwrap_or_default();
-        let resolution = self.resolution_of_time();
-        if s == 0.0 && !is_zero(curve(term), 0.0, start, resolution) {
-            return located;
-        }
-        let root = self.root(Guard::Mark(mark, term), s);
-        root.unwrap_or(located)
-    }
-
     /// Stops whose conditions the switch has just made true.
     pub(super) fn stops_of_the_mode(&mut self) -> Result<(), Error> {
         let d = self.description();

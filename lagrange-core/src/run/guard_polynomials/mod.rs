@@ -245,6 +245,11 @@ impl GuardPolynomials {
         }
     }
 
+    /// Whether they are interpolations, if one of them has a root.
+    pub(super) fn are_sampled(&self) -> bool {
+        !self.roots.is_empty()
+    }
+
     /// Lets a guard of the mode fall below zero by `margin`, of gaps in units of their extents, until [`Self::raise`] finds it clear of zero.
     pub(super) fn lower(&mut self, guard: Guard, margin: f64) {
         let extent = match guard {

@@ -137,3 +137,49 @@ fn the_instant_of_an_impact_at_the_end_of_a_run_moves() {
         same_slopes("impact", impact.time, expected, 1e-12);
     }
 }
+
+/// A mass on its way to a wall and back, across which a wind changes.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    force(wind: y = if(x >= 1.5 * unit, 1, -1)),
+    contact(wall: x <= 3 * unit, restitution = 1/2),
+    mark(half: x - unit / 2),
+    mark(far: x - 2 * unit),
+    stop(back: x <= unit and t >= 4 * unit),
+    start(goes: der(x) = 1),
+)]
+struct Way<T = f64> {
+    unit: T,
+}
+
+/// All that happens at multiples of the unit of length does so in proportion to it, also where fixed steps end there: in these and in those that
+/// follow.
+#[test]
+fn what_happens_where_steps_end_moves() {
+    for method in [
+        "rk4:0.1",
+        "gauss6:0.1",
+        "rk4:0.125",
+        "auto",
+        "dopri5",
+        "radau5",
+    ] {
+        let method: Method = method.parse().expect("a method");
+        for tenths in 1..20 {
+            let [unit] = seeded([0.1 * f64::from(tenths)]);
+            let scene = Way { unit };
+            let record = run(&scene, scene.at(<Way>::GOES), 40.0, (1e-9, method));
+            let times = record.events().iter().map(|event| event.time);
+            let times: Vec<Slopes> = times.collect();
+            let multiples = [0.5, 1.5, 2.0, 3.0, 5.0, 6.0, 7.0];
+            assert_eq!(times.len(), multiples.len(), "{method:?}: {record}");
+            for (time, multiple) in times.into_iter().zip(multiples) {
+                let expected = Slopes::constant(multiple) * unit;
+                let what = format!("{multiple} of {tenths} by {method:?}");
+                same_slopes(&what, time, expected, 1e-9);
+            }
+        }
+    }
+}
