@@ -307,6 +307,8 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         } else {
             dynamics.value_along(t, &state.q, &state.v)
         };
+        // How forces are shared does not depend on instants that were looked at before.
+        self.redundant.restart();
         let outcome = outcome.and_then(|()| instant(dynamics, &mut self.redundant, t, state));
         let mut instant = outcome.map_err(|e| Error::from_evaluation(e, t.value(), mode, d))?;
         // The mode is that of the phase.

@@ -127,6 +127,27 @@ fn loads_of_an_earlier_run_are_forgotten() {
     }
 }
 
+/// Forces of the feet are shared as they are at an instant, whatever else was looked at before.
+#[test]
+fn samples_do_not_depend_on_one_another() {
+    let sled = ThreeFeet {
+        gravity: 10.4,
+        mu: 0.344,
+        push: 5.3,
+    };
+    let run = Simulation::new(&sled).run(sled.at(ThreeFeet::SLIDES), 0.0..2.5);
+    let run = run.expect("runs");
+    let mut reused = run.sampler();
+    for tenths in (0..25).map(|k| 7 * k % 25) {
+        let time = 0.1 * f64::from(tenths);
+        let [again, alone] = [&mut reused, &mut run.sampler()].map(|sampler| {
+            let Instant { forces, held, .. } = sampler.at(time).expect("recorded");
+            (forces, held)
+        });
+        assert_eq!(again, alone, "at {time}");
+    }
+}
+
 #[test]
 fn what_was_not_recorded_is_refused() {
     let scene = MassOnShell::default();
