@@ -2,6 +2,7 @@
 
 mod accumulation;
 mod acting;
+mod adjoining;
 mod advance;
 mod cause;
 mod corners;

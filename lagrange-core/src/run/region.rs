@@ -5,7 +5,7 @@
 //! motion is below the surface, until the gap has opened again, wherever that is. Below it may enter the region freely, and
 //! come up through it. Where it enters the region on the surface, as a wheel that climbs a kerb, the contact closes.
 
-use super::{Progress, Run};
+use super::Run;
 use crate::arithmetic::{Scalar, rounding};
 use crate::effects::Item;
 use crate::events::{Direction, find_root};
@@ -15,16 +15,10 @@ use crate::modes::facts::SwitchFacts;
 use crate::modes::guard::Guard;
 use crate::system::{Contact, ValueRef};
 use crate::trajectory::State;
-use core::ops::ControlFlow::{Break, Continue};
+use core::ops::ControlFlow::Break;
 
 /// Gaps that other gaps hold at zero are off by no more than this, relative to what makes them.
 const ROUNDING: f64 = 1e-12;
-
-/// Whether a region and a gap change in proportion is seen in so many ways in which the state changes,
-const WAYS: usize = 4;
-
-/// to this share.
-const ALIKE: f64 = 1e-3;
 
 /// What closes by no more than this share of its terms over a step does not hit where a surface ends, but touches.
 const HITS: f64 = 1e-6;
@@ -34,9 +28,6 @@ const LOCATED: f64 = 1e-9;
 
 /// Whether the motion goes out at an edge is seen over this share of its extent, and where it goes out by no more than this share of that again it does not.
 const SOON: f64 = 1e-6;
-
-/// What is within so many tolerances of an edge may be at it.
-const NEARBY: f64 = 10.0;
 
 /// At so many parts of a step it is seen whether it stays at an edge.
 const PLACES: usize = 8;
@@ -57,114 +48,6 @@ impl<T: Scalar> Run<T> {
         let region = self.description().contacts[c].region;
         region.is_none_or(|place| self.dynamics.motion(place).value() > 0.0)
             || self.is_held_at(Guard::Region(c), 0.0)
-    }
-
-    /// Whether a guard is the edge of a region beyond which another surface keeps the motion off this one, at part `s` of the step: it is in the region.
-    pub(super) fn is_held_at(&self, guard: Guard, s: f64) -> bool {
-        let Guard::Region(c) = guard else {
-            return false;
-        };
-        let holder = self.locator.edges_held[c];
-        holder.is_some_and(|by| s == 0.0 || self.is_near(by, s))
-    }
-
-    /// Notes at which edges other surfaces keep the motion at the present state: a floor that ends at a wall is there along that wall, however it leans or
-    /// moves, and each side of a groove is there at its bottom.
-    pub(super) fn note_edges_held(&mut self) {
-        for c in 0..self.description().contacts.len() {
-            self.locator.edges_held[c] = self.holder_of_edge(c, None);
-        }
-    }
-
-    /// The same after part `end` of a step in which nothing happens.
-    pub(super) fn note_edges_at(&mut self, end: f64) {
-        for c in 0..self.description().contacts.len() {
-            let edge = self.locator.polynomials.of(Guard::Region(c));
-            let is_near = edge.is_some_and(|edge| value(edge, end).abs() <= 2.0 * self.nearby(c));
-            self.locator.edges_held[c] = is_near.then(|| self.holder_of_edge(c, None)).flatten();
-        }
-    }
-
-    /// Notes such edges to which the step at hand comes. Its series are made anew where that has taken their place.
-    pub(super) fn note_edges_ahead(&mut self) {
-        let before = self.now.series;
-        for c in 0..self.description().contacts.len() {
-            if self.locator.edges_held[c].is_none()
-                && let Some(s) = self.comes_to_edge(c)
-                && self.is_near_others(c, s)
-            {
-                self.locator.edges_held[c] = self.holder_of_edge(c, Some(s));
-                self.now.series = Progress::None;
-            }
-        }
-        if before != self.now.series {
-            self.ask_for_guards();
-            // What fails here fails again in the next try.
-            _ = self.expand();
-        }
-    }
-
-    /// The part of the step at hand at which the motion comes to the edge of contact `c`, or to its surface near the edge.
-    fn comes_to_edge(&self, c: usize) -> Option<f64> {
-        let curves = &self.locator.polynomials;
-        let edge = curves.of(Guard::Region(c))?;
-        let near = |s: f64| value(edge, s).abs() <= self.nearby(c);
-        find_root(edge, |root| Break(root.s)).or_else(|| {
-            find_root(curves.of(Guard::Gap(c))?, |root| match near(root.s) {
-                true => Break(root.s),
-                false => Continue(()),
-            })
-        })
-    }
-
-    /// Whether the motion is near the surface of another contact than `c` at a part of the step at hand.
-    fn is_near_others(&self, c: usize, s: f64) -> bool {
-        (0..self.description().contacts.len()).any(|by| by != c && self.is_near(by, s))
-    }
-
-    /// Whether the motion is near the surface of a contact at a part of the step at hand.
-    fn is_near(&self, c: usize, s: f64) -> bool {
-        let gap = self.locator.polynomials.of(Guard::Gap(c));
-        self.now.mode.contacts[c] || gap.is_some_and(|gap| value(gap, s).abs() <= self.nearby(c))
-    }
-
-    /// The contact, if there is one, whose surface keeps the motion off that of contact `c` beyond the edge at which it is, at the present state or at a
-    /// part of the step at hand.
-    fn holder_of_edge(&mut self, c: usize, part: Option<f64>) -> Option<usize> {
-        let d = self.description();
-        let region = d.contacts[c].region?;
-        let mut others = (0..d.contacts.len()).filter(|&by| by != c);
-        others.find(|&by| self.holds_at_edge(by, c, region, part))
-    }
-
-    /// Whether contact `by` does so at this edge.
-    fn holds_at_edge(&mut self, by: usize, c: usize, region: ValueRef, part: Option<f64>) -> bool {
-        let d = self.description();
-        let takes_part = self.dynamics.effects().includes(d, Item::Contact(by));
-        if !takes_part || self.now.below[by] {
-            return false;
-        }
-        let number = |place: ValueRef, run: &Self| run.dynamics.motion(place).value();
-        let read = |run: &Self| {
-            let others = d.contacts[by]
-                .region
-                .map_or(f64::INFINITY, |place| number(place, run));
-            [number(region, run), run.gap(c), run.gap(by), others]
-        };
-        let here = self.beside(part, T::zero(), |_, _| T::zero(), read);
-        let near = [self.nearby(c), self.nearby(by)];
-        if here[0].abs() > near[0] || here[2].abs() > near[1] || here[3] < -near[1] {
-            return false;
-        }
-        let changes: [[f64; 4]; WAYS] = core::array::from_fn(|way| {
-            // Roots, of which no sum is a multiple of another: cosines of an even spacing have means that are.
-            let phase = |j: usize| (1 + way) as f64 * (1.0 + j as f64).sqrt();
-            let along = |j: usize| T::from_f64(SOON * phase(j).cos());
-            let there = self.beside(part, along(0), |j, _| along(j + 1), read);
-            core::array::from_fn(|k| there[k] - here[k])
-        });
-        // A surface that ends here as well is there beyond this edge.
-        keeps_off(&changes) && (here[3] > near[1] || goes_on(&changes))
     }
 
     /// Whether a guard's contact exists at part `s` of the step and just after it.
@@ -224,13 +107,8 @@ impl<T: Scalar> Run<T> {
         (enters && touches && !self.is_held_at(edge, s)).then_some((s, width))
     }
 
-    /// What is no farther than this from the edge of contact `c`, or from its surface, is near.
-    fn nearby(&self, c: usize) -> f64 {
-        SOON.max(NEARBY * self.touching(c))
-    }
-
     /// A gap of this size vanishes: the tolerance, but no less than rounding of what makes it.
-    fn touching(&self, c: usize) -> f64 {
+    pub(super) fn touching(&self, c: usize) -> f64 {
         let rounding = rounding::<T>(ROUNDING) * self.locator.polynomials.extents[c];
         self.settings.tolerance.max(rounding)
     }
@@ -368,33 +246,4 @@ impl<T: Scalar> Run<T> {
             self.locator.polynomials.lower(Guard::Region(c), small);
         }
     }
-}
-
-/// Whether the first of these quantities that vanish, a region, keeps the second, a gap, above zero where it is negative itself and the third, the gap of
-/// another contact, is not, as the ways in which they change tell: region = a·gap + b·other, to first order, with a ≤ 0 < b.
-fn keeps_off(changes: &[[f64; 4]]) -> bool {
-    shares(changes, 0, [1, 2]).is_some_and(|[a, b]| a <= 0.0 && b > 0.0)
-}
-
-/// Whether the last of these quantities, the region of the other contact, is positive where the first one is negative and the gap is not.
-fn goes_on(changes: &[[f64; 4]]) -> bool {
-    shares(changes, 3, [0, 1]).is_some_and(|[a, b]| a <= 0.0 && b >= 0.0)
-}
-
-/// In which shares one of these quantities changes with two others, if it does in the same shares, whichever way: with one of them alone if it does.
-fn shares(changes: &[[f64; 4]], one: usize, [i, k]: [usize; 2]) -> Option<[f64; 2]> {
-    let product = |i: usize, k: usize| changes.iter().map(|x| x[i] * x[k]).sum::<f64>();
-    let free = product(i, i) * product(k, k) - product(i, k) * product(i, k);
-    let both = [
-        (product(one, i) * product(k, k) - product(one, k) * product(i, k)) / free,
-        (product(one, k) * product(i, i) - product(one, i) * product(i, k)) / free,
-    ];
-    let alone = [i, k].map(|i| product(one, i) / product(i, i));
-    let explain = |[a, b]: &[f64; 2]| {
-        let mut rests = changes.iter().map(|x| x[one] - a * x[i] - b * x[k]);
-        rests.all(|rest| rest.abs() <= ALIKE * product(one, one).sqrt())
-    };
-    [[0.0, alone[1]], [alone[0], 0.0], both]
-        .into_iter()
-        .find(explain)
 }

@@ -110,16 +110,19 @@ impl<T: Scalar> Decider<T> {
         let mut unclear = false;
         let questions = core::mem::take(&mut self.questions);
         for &(guard, order_known) in &questions {
-            // Where others hold it, series of a direction that there is not are no guide.
-            if self.must_stick(guard, dynamics) && is_held::<T>(guard, facts, dynamics) {
-                self.violated.push(guard);
-                continue;
-            }
             let mut series = [0.0; guard::LENGTH];
             let series = &mut series[..=order];
             match self.just_after(guard, order_known, ahead, series) {
                 Leading::Falls => blame(guard, &self.composites, &mut self.violated),
                 Leading::Rises(0) => {}
+                // Where others hold it, series of a direction that there is not are no guide.
+                Leading::Rises(2..)
+                    if self.posed.frictions.contains(&FrictionMode::Stick)
+                        && self.must_stick(guard, dynamics)
+                        && is_held::<T>(guard, facts, dynamics) =>
+                {
+                    self.violated.push(guard);
+                }
                 Leading::Rises(k) => self.zeros.push((guard, k)),
                 Leading::Stays if !last => unclear = true,
                 Leading::Stays

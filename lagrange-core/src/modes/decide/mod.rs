@@ -61,7 +61,6 @@ pub struct Decider<T> {
     /// What was found last.
     pub decision: Decision,
     listings: Listings,
-    parts: Parts,
     /// Per contact: its part of the system is decided on later.
     undecided: Vec<bool>,
     questions: Vec<(Guard, usize)>,
@@ -119,7 +118,6 @@ impl<T: Scalar> Decider<T> {
                 expanded: false,
             },
             listings: Listings::default(),
-            parts: Parts::of(description),
             undecided: vec![false; description.contacts.len()],
             questions: Vec::new(),
             zeros: Vec::new(),
@@ -284,9 +282,7 @@ impl<T: Scalar> Decider<T> {
         here: SwitchContext<'_, T>,
         listings: &mut Listings,
     ) -> Result<bool, EvaluationError> {
-        let parts = core::mem::take(&mut self.parts);
-        let outcome = self.parts_in_turn(dynamics, table, here, listings, &parts);
-        self.parts = parts;
+        let outcome = self.parts_in_turn(dynamics, table, here, listings);
         self.undecided.fill(false);
         outcome
     }
@@ -297,13 +293,13 @@ impl<T: Scalar> Decider<T> {
         table: &mut Table,
         here: SwitchContext<'_, T>,
         listings: &mut Listings,
-        parts: &Parts,
     ) -> Result<bool, EvaluationError> {
+        let d = dynamics.description();
+        let parts = &Parts::of(d, dynamics.effects(), here.facts);
         // Branches act on everything.
         if parts.count < 2 || here.facts.balanced.contains(&true) {
             return Ok(false);
         }
-        let d = dynamics.description();
         let mut whole = here.present.clone();
         let concerned = (0..parts.count).filter(|&part| parts.is_concerned(part, here, d));
         for part in concerned.clone() {

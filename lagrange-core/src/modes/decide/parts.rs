@@ -1,13 +1,14 @@
 //! Parts of a system whose modes do not depend on one another: bodies that have nothing in common but the floor. What several of them may do
 //! together is a product of what each may do alone, and nobody need look at all of it.
 
+use crate::effects::{Effects, Item};
 use crate::mode::{FrictionMode, Mode};
-use crate::modes::facts::SwitchContext;
+use crate::modes::facts::{SwitchContext, SwitchFacts};
 use crate::modes::guard::Guard;
 use crate::system::Description;
 
 /// Which part every contact and friction belongs to: the accelerations of a part depend on the mode of no other one.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Parts {
     /// Per contact.
     pub contacts: Vec<usize>,
@@ -18,27 +19,37 @@ pub struct Parts {
 }
 
 impl Parts {
-    /// The parts of a system: inertia, rows and what they press hold coordinates together.
-    pub fn of(d: &Description) -> Self {
+    /// The parts of a system at an instant: inertia, rows that may act and what they press hold coordinates together.
+    pub fn of(d: &Description, effects: &Effects, facts: &SwitchFacts) -> Self {
         let mut sets = Sets((0..d.coordinates.len() + d.rows.len()).collect());
         let row = |index: usize| d.coordinates.len() + index;
         for &(i, j, _) in d.mass {
             sets.join(i, j);
         }
-        for (index, one) in d.rows.iter().enumerate() {
-            for &(j, _) in one.jacobian {
+        let contacts = d
+            .contacts
+            .iter()
+            .enumerate()
+            .filter(|&(c, _)| facts.touching[c] || facts.arriving[c] || facts.parting[c]);
+        let constraints = d.constraints.iter().enumerate();
+        let constraints = constraints.filter(|&(i, _)| effects.includes(d, Item::Constraint(i)));
+        let frictions = d.frictions.iter().enumerate().filter(|(f, friction)| {
+            friction.normal.presses(|c| facts.touching[c])
+                && effects.includes(d, Item::Friction(*f))
+        });
+        let acting = contacts.map(|(_, contact)| contact.row);
+        let acting = acting.chain(constraints.map(|(_, constraint)| constraint.row));
+        for index in acting.chain(frictions.clone().flat_map(|(_, friction)| friction.rows())) {
+            for &(j, _) in d.rows[index].jacobian {
                 sets.join(row(index), j);
             }
-        }
-        for coupling in d.couplings {
-            sets.join(row(coupling.row), coupling.coordinate);
-        }
-        for friction in d.frictions {
-            for component in friction.rows() {
-                sets.join(row(friction.row), row(component));
+            for coupling in d.couplings.iter().filter(|coupling| coupling.row == index) {
+                sets.join(row(index), coupling.coordinate);
             }
-            for presses in friction.normal.rows(d) {
-                sets.join(row(friction.row), row(presses));
+        }
+        for (_, friction) in frictions {
+            for tied in friction.rows().chain(friction.normal.rows(d)) {
+                sets.join(row(friction.row), row(tied));
             }
         }
         let mut names: Vec<usize> = Vec::new();

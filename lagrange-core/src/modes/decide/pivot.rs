@@ -37,7 +37,19 @@ impl<T: Scalar> Decider<T> {
         self.decision.ambiguous = false;
         look_at_slips(dynamics, here, &self.rows);
         let mut near = here.present.clone();
-        Choices { dynamics, here }.begin(&mut near);
+        Choices { dynamics, here }.begin(&mut near, false);
+        // Frictions at their limits may hold on, of a load that does not grow on.
+        let mut located = here.facts.located.iter();
+        if !here.facts.again && located.any(|guard| guard.holding().is_some()) {
+            let mut holds = here.present.clone();
+            Choices { dynamics, here }.begin(&mut holds, true);
+            self.decision.expanded = false;
+            if !here.ends(&holds) && self.examine(dynamics, table, here, &holds)? {
+                self.decision.ambiguous = self.forks;
+                self.keep(dynamics);
+                return Ok(true);
+            }
+        }
         let mut outcome = Ok(false);
         for (guesses, sticks_first) in [(false, true), (true, true), (false, false), (true, false)]
         {
@@ -112,8 +124,8 @@ fn order(guard: &Guard) -> (usize, usize) {
 }
 
 impl<T: Scalar> Choices<'_, T> {
-    /// From the present mode to the nearest that is not over: what was located is exchanged, what touches is closed.
-    fn begin(&self, mode: &mut Mode) {
+    /// From the present mode to the nearest that is not over: what was located is exchanged, unless it `holds`, and what touches is closed.
+    fn begin(&self, mode: &mut Mode, holds: bool) {
         let facts = self.here.facts;
         for (closed, touching) in mode.contacts.iter_mut().zip(&facts.touching) {
             *closed = *touching;
@@ -121,8 +133,15 @@ impl<T: Scalar> Choices<'_, T> {
         for f in 0..mode.frictions.len() {
             self.set_first(mode, f);
         }
-        let ended = |guard: &&Guard| !matches!(guard, Guard::Gap(_) | Guard::Slip(_));
-        let located: Vec<Guard> = facts.located.iter().filter(ended).copied().collect();
+        let stays = |guard: &Guard| {
+            matches!(guard, Guard::Gap(_) | Guard::Slip(_)) || holds && guard.holding().is_some()
+        };
+        let located: Vec<Guard> = facts
+            .located
+            .iter()
+            .filter(|guard| !stays(guard))
+            .copied()
+            .collect();
         self.exchange(&located, mode);
     }
 
