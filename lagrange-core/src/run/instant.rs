@@ -1,7 +1,8 @@
 //! The instant of an event as a number of the run's own scalar.
 //!
 //! A root is located in doubles. It depends on parameters and start as the guard does, dt/dp = −(∂g/∂p)/ġ: a Newton step from
-//! the located root in the run's scalar, which changes derivatives only. State and time are then taken there, and an impact or switch acts on them; the motion that follows has all terms of a saltation matrix (Leine & Nijmeijer 2004, chapter 7).
+//! the located root in the run's scalar, which changes derivatives only. State and time are then taken there, and an impact
+//! or switch acts on them; the motion that follows has all terms of a saltation matrix (Leine & Nijmeijer 2004, chapter 7).
 
 use super::Run;
 use super::hit::Hit;
@@ -18,7 +19,7 @@ const MORE_STEPS: usize = 2;
 const APART: f64 = 1e-3;
 /// A guard that turns within this share of the way to its root from there only touches zero.
 const TOUCHES: f64 = 1e-5;
-/// What a step begins with is zero if it changes by so many times as much over that part.
+/// What a step begins with is zero if it is no more than this share of what it changes by over that part.
 const VANISHES: f64 = 1e-3;
 
 impl<T: Scalar> Run<T> {
@@ -87,16 +88,20 @@ impl<T: Scalar> Run<T> {
             true => APART,
             false => -APART,
         };
-        let values = self.up_to(guard, s, apart)?;
-        let [far, near, there] = values.map(T::value);
-        if located == 0.0 && there.abs() > VANISHES * (near - there).abs() {
+        // The guard may have no value there although it has one at its root.
+        let values = self.up_to(guard, s, apart);
+        let [bend, jumps] = values.map_or([0.0, f64::INFINITY], |values| {
+            let [far, near, there] = values.map(T::value);
+            let bend = (there - 2.0 * near + far) / apart.powi(2);
+            [bend, (there / (near - there)).abs()]
+        });
+        if located == 0.0 && jumps > VANISHES {
             return None;
         }
-        let bend = (there - 2.0 * near + far) / apart.powi(2);
         let interpolated = self.locator.polynomials.are_sampled();
         let slope = match slope {
             Some(slope) if !interpolated && !matches!(guard, Guard::Composite(_)) => slope,
-            _ => slope_there(values, apart).value(),
+            _ => slope_there(values?, apart).value(),
         };
         let way = if located > 0.0 { located } else { APART };
         let touches = slope.abs() <= TOUCHES * way * bend.abs();
