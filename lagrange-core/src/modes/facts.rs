@@ -1,5 +1,6 @@
 //! What a decision starts from: the instant, the mode up to it, and what is known exactly.
 
+use crate::effects::{Effects, Item};
 use crate::integrate::Tolerance;
 use crate::mode::Mode;
 use crate::modes::guard::Guard;
@@ -40,6 +41,12 @@ pub struct SwitchFacts {
 }
 
 impl SwitchFacts {
+    /// Whether a friction is not left out and may have a force: what presses it touches.
+    pub fn may_act(&self, friction: usize, d: &Description, effects: &Effects) -> bool {
+        let normal = d.frictions[friction].normal;
+        normal.presses(|c| self.touching[c]) && effects.includes(d, Item::Friction(friction))
+    }
+
     /// Nothing is known.
     pub fn clear(&mut self, d: &Description) {
         for flags in [&mut self.touching, &mut self.arriving, &mut self.parting] {

@@ -4,7 +4,6 @@ use super::Run;
 use super::touching::ROUNDING;
 use crate::arithmetic::{Scalar, rounding};
 use crate::dynamics::AT_REST;
-use crate::effects::Item;
 use crate::error::Error;
 use crate::mode::FrictionMode;
 use crate::modes::facts::SwitchFacts;
@@ -18,10 +17,9 @@ impl<T: Scalar> Run<T> {
         let d = self.description();
         let closes = facts.arriving.contains(&true);
         let wakes = |run: &Self, facts: &SwitchFacts, f: usize| {
-            d.frictions[f].normal.presses(|c| facts.touching[c])
-                && !facts.resting[f]
+            !facts.resting[f]
                 && (closes || run.now.mode.frictions[f] == FrictionMode::Inactive)
-                && run.dynamics.effects().includes(d, Item::Friction(f))
+                && facts.may_act(f, d, run.dynamics.effects())
         };
         if !(0..d.frictions.len()).any(|f| wakes(self, facts, f)) {
             return;
@@ -55,11 +53,8 @@ impl<T: Scalar> Run<T> {
     /// of its feet.
     pub(super) fn rest_where_impact_leaves_nothing(&mut self, facts: &mut SwitchFacts) {
         let d = self.description();
-        let acts = |f: &usize| {
-            d.frictions[*f].normal.presses(|c| facts.touching[c])
-                && !facts.resting[*f]
-                && self.dynamics.effects().includes(d, Item::Friction(*f))
-        };
+        let effects = self.dynamics.effects();
+        let acts = |f: &usize| !facts.resting[*f] && facts.may_act(*f, d, effects);
         let mut ending = core::mem::take(&mut self.switcher.ending);
         ending.clear();
         if facts.touching.contains(&true) {

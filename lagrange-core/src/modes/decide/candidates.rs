@@ -264,10 +264,9 @@ pub fn look_at_slips<T: Scalar>(
     let d = dynamics.description();
     let SwitchContext { moment, facts, .. } = here;
     let slides_unknown = |f: usize| {
-        d.frictions[f].normal.presses(|c| facts.touching[c])
-            && d.frictions[f].components == 1
+        d.frictions[f].components == 1
             && !facts.resting[f]
-            && dynamics.effects().includes(d, Item::Friction(f))
+            && facts.may_act(f, d, dynamics.effects())
             && slip_sign(f, here).is_none()
     };
     let look = (0..d.frictions.len()).any(slides_unknown);

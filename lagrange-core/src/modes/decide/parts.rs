@@ -3,6 +3,7 @@
 
 use crate::effects::{Effects, Item};
 use crate::mode::{FrictionMode, Mode};
+use crate::modes::disjoint;
 use crate::modes::facts::{SwitchContext, SwitchFacts};
 use crate::modes::guard::Guard;
 use crate::system::Description;
@@ -21,10 +22,12 @@ pub struct Parts {
 impl Parts {
     /// The parts of a system at an instant: inertia, rows that may act and what they press hold coordinates together.
     pub fn of(d: &Description, effects: &Effects, facts: &SwitchFacts) -> Self {
-        let mut sets = Sets((0..d.coordinates.len() + d.rows.len()).collect());
+        let mut sets = Vec::new();
+        disjoint::separate(&mut sets, d.coordinates.len() + d.rows.len());
+        let mut join = |a: usize, b: usize| disjoint::join(&mut sets, a, b);
         let row = |index: usize| d.coordinates.len() + index;
         for &(i, j, _) in d.mass {
-            sets.join(i, j);
+            join(i, j);
         }
         let contacts = d
             .contacts
@@ -33,28 +36,26 @@ impl Parts {
             .filter(|&(c, _)| facts.touching[c] || facts.arriving[c] || facts.parting[c]);
         let constraints = d.constraints.iter().enumerate();
         let constraints = constraints.filter(|&(i, _)| effects.includes(d, Item::Constraint(i)));
-        let frictions = d.frictions.iter().enumerate().filter(|(f, friction)| {
-            friction.normal.presses(|c| facts.touching[c])
-                && effects.includes(d, Item::Friction(*f))
-        });
+        let frictions = d.frictions.iter().enumerate();
+        let frictions = frictions.filter(|&(f, _)| facts.may_act(f, d, effects));
         let acting = contacts.map(|(_, contact)| contact.row);
         let acting = acting.chain(constraints.map(|(_, constraint)| constraint.row));
         for index in acting.chain(frictions.clone().flat_map(|(_, friction)| friction.rows())) {
             for &(j, _) in d.rows[index].jacobian {
-                sets.join(row(index), j);
+                join(row(index), j);
             }
             for coupling in d.couplings.iter().filter(|coupling| coupling.row == index) {
-                sets.join(row(index), coupling.coordinate);
+                join(row(index), coupling.coordinate);
             }
         }
         for (_, friction) in frictions {
             for tied in friction.rows().chain(friction.normal.rows(d)) {
-                sets.join(row(friction.row), row(tied));
+                join(row(friction.row), row(tied));
             }
         }
         let mut names: Vec<usize> = Vec::new();
         let mut part = |index: usize| {
-            let root = sets.root(row(index));
+            let root = disjoint::first(&sets, row(index));
             names
                 .iter()
                 .position(|&name| name == root)
@@ -118,22 +119,5 @@ impl Parts {
         frictions
             .filter(|(_, of)| **of == part)
             .for_each(|(state, _)| *state = FrictionMode::Inactive);
-    }
-}
-
-/// Disjoint sets, each with the way to its root.
-struct Sets(Vec<usize>);
-
-impl Sets {
-    fn root(&self, mut item: usize) -> usize {
-        while self.0[item] != item {
-            item = self.0[item];
-        }
-        item
-    }
-
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a] = b;
     }
 }

@@ -9,6 +9,7 @@
 
 use super::bearing::Bearing;
 use crate::arithmetic::Scalar;
+use crate::modes::disjoint;
 use core::ops::Range;
 
 /// A contact whose gap vanishes.
@@ -105,23 +106,25 @@ impl<T: Scalar> Collision<T> {
 
     /// Per row, the first row of its group: rows that impulses tie together, at once or through others, and what presses them.
     pub fn groups(&self, out: &mut Vec<usize>) {
-        out.clear();
-        out.extend(0..self.size);
+        disjoint::separate(out, self.size);
         for i in 0..self.size {
             (0..i)
                 .filter(|&j| !self.g(i, j).is_zero())
-                .for_each(|j| join(out, i, j));
+                .for_each(|j| disjoint::join(out, i, j));
         }
         for &(row, touch) in &self.conditional {
-            join(out, row, self.touches[touch].row);
+            disjoint::join(out, row, self.touches[touch].row);
         }
         for rub in &self.rubs {
             rub.rows()
-                .for_each(|row| join(out, row, self.bearing_row(rub)));
+                .for_each(|row| disjoint::join(out, row, self.bearing_row(rub)));
         }
         for bearing in &self.bearings {
             let rows = bearing.rows().iter();
-            rows.for_each(|&row| join(out, row, bearing.first()));
+            rows.for_each(|&row| disjoint::join(out, row, bearing.first()));
+        }
+        for i in 0..self.size {
+            out[i] = disjoint::first(out, i);
         }
     }
 
@@ -132,11 +135,4 @@ impl<T: Scalar> Collision<T> {
             NormalSource::ConstraintRow(row) => row,
         }
     }
-}
-
-/// Makes one group of those of two rows.
-fn join(groups: &mut [usize], i: usize, j: usize) {
-    let (first, other) = (groups[i].min(groups[j]), groups[i].max(groups[j]));
-    let others = groups.iter_mut().filter(|group| **group == other);
-    others.for_each(|group| *group = first);
 }
