@@ -31,17 +31,26 @@ impl Equations {
     pub fn balance_with_sizes(&mut self, at: Situation<'_>, mode: &Mode) {
         /// Changes of the state, whose rounding errors do not matter and which are small enough to be linear.
         const CHANGE: f64 = 1.0 / 1_048_576.0;
-        // No two change alike, so that no difference of coordinates stays as it is.
-        let changed = |x: &[f64]| -> Vec<f64> {
+        /// So many coordinates in a row change with one sign.
+        const SIGNS: [usize; 2] = [1, 2];
+        // No two change alike, so that no difference of coordinates stays as it is; and what changes of one kind leave as it is, others do not.
+        let changed = |x: &[f64], signs: usize| -> Vec<f64> {
             let changed = x.iter().enumerate().map(|(i, x)| {
-                let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
+                let sign = if (i / signs).is_multiple_of(2) {
+                    1.0
+                } else {
+                    -1.0
+                };
                 x + sign * CHANGE * uneven(i, GOLDEN) * (1.0 + x.abs())
             });
             changed.collect()
         };
-        let (q, v) = (changed(at.q), changed(at.v));
-        self.balance(Situation { q: &q, v: &v, ..at });
-        let mut beside = vec![self.residual.clone()];
+        let mut beside = Vec::new();
+        for signs in SIGNS {
+            let (q, v) = (changed(at.q, signs), changed(at.v, signs));
+            self.balance(Situation { q: &q, v: &v, ..at });
+            beside.push(self.residual.clone());
+        }
         // A force that is a function of the time is rounded as the time is: a fast oscillation far from the beginning.
         self.balance(Situation {
             time: at.time + CHANGE * (1.0 + at.time.abs()),
