@@ -114,6 +114,20 @@ pub fn file(text: &str, name: &str) -> Result<FromFile, Diagnostics> {
     }
 }
 
+/// The value of an expression without names, as `2*pi`.
+///
+/// # Errors
+/// It is no expression, has names, or has no value.
+pub fn number(text: &str) -> Result<f64, Diagnostics> {
+    let mut sink = Diagnostics::new();
+    let value = parse::lone_expression(text, &mut sink);
+    let value = value.and_then(|value| model::number(&Declaration::nothing(), &value, &mut sink));
+    match value {
+        Some(value) if sink.is_empty() => Ok(value),
+        _ => Err(sink),
+    }
+}
+
 fn from_file(text: &str, name: &str, sink: &mut Diagnostics) -> Option<FromFile> {
     let file = parse::file(text, name, sink)?;
     let (program, _) = planned(&file.declaration, sink)?;

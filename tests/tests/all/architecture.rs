@@ -57,7 +57,7 @@ const CORE: [&str; 28] = [
 /// From the name of a scene to what is written of it; the lowest first.
 const PROGRAM: [&str; 27] = [
     "closed_form",
-    "count",
+    "number",
     "drawing",
     "format",
     "names",

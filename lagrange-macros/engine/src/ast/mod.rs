@@ -40,6 +40,21 @@ pub struct Declaration {
     pub home: Home,
 }
 
+impl Declaration {
+    /// One that declares nothing.
+    pub fn nothing() -> Self {
+        Self {
+            name: Ident::new("Nothing", Span::call_site()),
+            documentation: String::new(),
+            scalar: None,
+            fields: Vec::new(),
+            items: Vec::new(),
+            core: None,
+            home: Home::File,
+        }
+    }
+}
+
 /// Where a declaration stands, which decides how a parameter is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Home {

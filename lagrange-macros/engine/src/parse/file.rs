@@ -9,6 +9,7 @@
 //! ```
 
 use super::cursor::{Cursor, DEEPEST};
+use super::expression;
 use super::item::{self, Items, Parameters, attributes};
 use super::structure;
 use super::words::{DEGREES, SINGLE_QUOTES};
@@ -90,6 +91,14 @@ pub fn file(text: &str, name: &str, sink: &mut Diagnostics) -> Option<File> {
         items,
     };
     (sink.count() == before).then_some(file)
+}
+
+/// Reads a text that is an expression alone. Mistakes go to the sink.
+pub fn lone_expression(text: &str, sink: &mut Diagnostics) -> Option<Expr> {
+    let tokens = tokens(text, sink)?;
+    shallow(&tokens, sink)?;
+    let mut cursor = Cursor::new(tokens, Span::call_site().into(), 0);
+    expression::whole(&mut cursor, sink)
 }
 
 /// The tokens of the text, if it is made of tokens.

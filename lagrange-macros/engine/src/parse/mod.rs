@@ -19,7 +19,7 @@ use crate::ast::Declaration;
 use crate::diagnostics::Diagnostics;
 use proc_macro2::TokenStream;
 
-pub use file::{File, file};
+pub use file::{File, file, lone_expression};
 pub use words::{DEGREES, FUNCTIONS, KEYWORDS, is_degree};
 
 /// Reads a struct with its `#[lagrange(…)]` attributes; mistakes go to the sink.

@@ -46,7 +46,7 @@ pub(super) struct RunArgs {
 #[derive(Args)]
 #[command(next_help_heading = "The run")]
 pub(super) struct Motion {
-    /// Set a parameter; may be repeated.
+    /// Set a parameter, to a number or an expression of numbers (pi/3); may be repeated.
     #[arg(long, value_name = "NAME=VALUE", value_parser = named, allow_hyphen_values = true)]
     set: Vec<(String, f64)>,
     /// The named start to begin from [default: the first].

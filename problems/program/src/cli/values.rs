@@ -1,7 +1,7 @@
 //! `name=value` and numbers, as they come from the command line.
 
-use crate::count::count;
 use crate::format::Still;
+use crate::number::{count, finite};
 use crate::request::{ERRORS, TOLERANCES};
 use core::str::FromStr;
 use std::path::PathBuf;
@@ -39,15 +39,6 @@ pub(super) fn named_positive(text: &str) -> Result<(String, f64), String> {
     match named(text)? {
         (name, value) if value > 0.0 => Ok((name, value)),
         (name, _) => Err(format!("the value of `{name}` must be above 0")),
-    }
-}
-
-/// A finite number.
-pub(super) fn finite(text: &str) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        Ok(_) => Err("the value must be finite".to_owned()),
-        Err(_) => Err(format!("`{}` is not a number", text.trim())),
     }
 }
 

@@ -1,6 +1,6 @@
 //! A number that is varied, over which range, in which steps.
 
-use crate::count::count;
+use crate::number::{count, finite};
 use core::fmt;
 use core::str::FromStr;
 use lagrange_core::error::Shortest;
@@ -77,11 +77,7 @@ impl FromStr for Axis {
         let (name, range) = text.split_once('=').ok_or(form)?;
         let (from, rest) = range.split_once("..").ok_or(form)?;
         let mut rest = rest.split(':');
-        let number = |text: &str| match text.trim().parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(value),
-            _ => Err(format!("`{}` is not a finite number", text.trim())),
-        };
-        let (from, to) = (number(from)?, number(rest.next().ok_or(form)?)?);
+        let (from, to) = (finite(from)?, finite(rest.next().ok_or(form)?)?);
         let count = match rest.next() {
             None => 0,
             Some(text) => {

@@ -1,7 +1,7 @@
 //! The points of a sweep: a grid, or a sample of a box. Point number i is the same whoever asks for it.
 
 use super::{Axis, sample, sobol};
-use crate::count::count;
+use crate::number::count;
 use core::fmt;
 use core::str::FromStr;
 
