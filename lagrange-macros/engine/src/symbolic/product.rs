@@ -269,8 +269,8 @@ impl Pool {
         }
     }
 
-    /// Takes integer parts out of the exponents of numbers, and multiplies out bases that are products or multiples
-    /// and whose exponent has become an integer. Whether the factors must be collected again.
+    /// Takes integer parts out of the exponents of numbers, multiplies out bases that are products or multiples and whose exponent has become
+    /// an integer, and divides by no tangent. Whether the factors must be collected again.
     fn settle(&mut self, all: &mut Factors) -> bool {
         let mut again = !all.exponentials.is_empty() || !all.powers.is_empty();
         let mut at = 0;
@@ -306,10 +306,31 @@ impl Pool {
                 all.plain.remove(at);
                 self.multiply(all, base, exponent);
                 again = true;
+            } else if let Some(quotient) = self.inverse_tangent(base, exponent) {
+                all.plain.remove(at);
+                all.plain.extend(quotient);
+                again = true;
             } else {
                 at += 1;
             }
         }
         again
+    }
+
+    /// 1/tan u = cos u / sin u, which has a value where tan u has none.
+    fn inverse_tangent(
+        &mut self,
+        base: ExprId,
+        exponent: Rational,
+    ) -> Option<[(ExprId, Rational); 2]> {
+        let Node::Call(Function::Tan, arguments) = self.node(base) else {
+            return None;
+        };
+        let argument = [arguments[0]];
+        let divides = exponent.is_integer() && exponent.is_negative();
+        divides.then(|| {
+            let [sine, cosine] = [Function::Sin, Function::Cos].map(|f| self.call(f, &argument));
+            [(cosine, self.negative(exponent)), (sine, exponent)]
+        })
     }
 }
