@@ -1,10 +1,10 @@
 //! All combinations in order: contacts pressed before free, frictions sticking before sliding.
 //!
 //! A law with friction may have several solutions: what is held between two rough surfaces jams, or one of them lets go. With the
-//! same contacts pressed the first one counts, in which more sticks. Of those with other contacts pressed it is the one with
+//! same contacts pressed those count in which most sticks. Of these, and of those with other contacts pressed, it is the one with
 //! the least jump of the velocities, Δvᵀ M Δv = Λᵀ G Λ.
 
-use super::Search;
+use super::{FEW, Search};
 use crate::arithmetic::Scalar;
 use crate::modes::impact::collision::{Collision, FrictionRow, NormalSource};
 use crate::modes::impact::pattern::{Pattern, Phase, Slide};
@@ -23,32 +23,50 @@ impl<T: Scalar> Search<T> {
 
     /// Leaves in `pattern` the solution that counts, and the others in `others`; false if there is none.
     pub(super) fn enumerate(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
-        let mut least: Option<Pattern<T>> = None;
+        let few = self.combinations(c).is_some_and(|n| n <= FEW);
+        let mut found: Vec<Pattern<T>> = Vec::new();
         for open in 0..1_usize << self.taking.len() {
-            if !self.first_with(open, c, phase) {
-                continue;
-            }
-            let Some(least) = &mut least else {
-                if !self.pattern.may_jam(c) {
+            self.begin_with(open, c, phase);
+            let (before, mut most) = (found.len(), 0);
+            while self.next_solution(c, phase) {
+                let sticking = self.sticking();
+                let alone = !few || self.acting.len() < 2 || sticking == self.acting.len();
+                if found.is_empty() && alone && !self.pattern.may_jam(c) {
                     return true;
                 }
-                least = Some(self.pattern.clone());
-                continue;
-            };
-            let known = |other: &Pattern<T>| other.moves_as(&self.pattern);
-            if known(least) || self.others.iter().any(known) {
-                continue;
+                if sticking > most {
+                    found.truncate(before);
+                    most = sticking;
+                }
+                if sticking == most && !found.iter().any(|other| other.moves_as(&self.pattern)) {
+                    found.push(self.pattern.clone());
+                }
+                if alone || !self.next_choice(c) {
+                    break;
+                }
             }
-            if self.pattern.jump(phase) < least.jump(phase) {
-                core::mem::swap(least, &mut self.pattern);
+            if before == 0 && !found.is_empty() && !found.iter().any(|found| found.may_jam(c)) {
+                break;
             }
-            self.others.push(self.pattern.clone());
         }
-        least.map(|least| self.pattern = least).is_some()
+        let jumps = |pattern: &Pattern<T>| pattern.jump(phase);
+        let least = (0..found.len()).min_by(|&i, &j| jumps(&found[i]).total_cmp(&jumps(&found[j])));
+        let Some(least) = least else {
+            return false;
+        };
+        self.pattern = found.swap_remove(least);
+        self.others = found;
+        true
     }
 
-    /// The first solution with the contacts free that `open` has bits for.
-    fn first_with(&mut self, open: usize, c: &Collision<T>, phase: &Phase<T>) -> bool {
+    /// How many frictions stick in the present combination.
+    fn sticking(&self) -> usize {
+        let slides = self.pattern.slides.iter();
+        slides.filter(|slide| **slide == Slide::Stick).count()
+    }
+
+    /// Begins with all that sticks and the contacts free that `open` has bits for.
+    fn begin_with(&mut self, open: usize, c: &Collision<T>, phase: &Phase<T>) {
         self.pattern.pressed.clear();
         self.pattern.pressed.resize(c.touches.len(), false);
         for (bit, &k) in self.taking.iter().enumerate() {
@@ -57,6 +75,10 @@ impl<T: Scalar> Search<T> {
         self.list_acting(c, phase);
         self.choice.clear();
         self.choice.resize(self.acting.len(), 0);
+    }
+
+    /// The first solution from the present combination on, with the same contacts free.
+    fn next_solution(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
         loop {
             if self.attempt_choice(c, phase) {
                 return true;
