@@ -292,12 +292,16 @@ impl<T: Scalar> Dynamics<T> {
         })
     }
 
-    /// Resultants that are small beside what they have been.
+    /// Resultants that are small beside what they have been or, where a run begins, beside what moves the system.
     fn nearly_without_load(&self) -> Vec<usize> {
-        let pressing = self.compiled().pattern.sliding.resultants.iter();
+        let pattern = &self.compiled().pattern;
+        let pressing = pattern.sliding.resultants.iter();
+        let drives = self.right[..pattern.size()].iter();
+        let driven = drives.fold(0.0_f64, |most, drive| most.max(drive.value().abs()));
         let small = |i: &usize| {
             let of = &self.resultants.of[*i];
-            !(of.largest > 0.0 && of.size > SMALL * of.largest)
+            let before = if of.largest > 0.0 { of.largest } else { driven };
+            !(before > 0.0 && of.size > SMALL * before)
         };
         pressing
             .map(|given| given.resultant)

@@ -79,7 +79,7 @@ impl<T: Scalar> RedundantForces<T> {
                 pressing,
                 terms: limits,
                 constant,
-            }) = self.limit(friction, dynamics)
+            }) = self.limit(f, friction, dynamics)
             else {
                 continue;
             };
@@ -109,7 +109,7 @@ impl<T: Scalar> RedundantForces<T> {
     }
 
     /// What a friction that sticks can hold; nothing if what presses it does not act.
-    fn limit(&self, friction: &Friction, dynamics: &Dynamics<T>) -> Option<Limit<T>> {
+    fn limit(&self, f: usize, friction: &Friction, dynamics: &Dynamics<T>) -> Option<Limit<T>> {
         let d = dynamics.description();
         let acting = dynamics.acting_rows();
         let index = |row: usize| acting.binary_search(&row).ok();
@@ -136,13 +136,15 @@ impl<T: Scalar> RedundantForces<T> {
                 terms.push((row, coefficient * pressing[0]));
                 T::zero()
             }
-            // What the least forces press in their direction, others press at least.
+            // What forces press in a direction they press at least; in that of the least ones, if no other has been chosen.
             normal @ Normal::Resultant(_) => {
                 let rows = normal.rows(d).map(index).collect::<Option<Vec<_>>>()?;
                 let force = |&row: &usize| self.least.forces[row];
                 let squares = rows.iter().map(|row| force(row) * force(row));
                 let size = squares.fold(T::zero(), |sum, square| sum + square).sqrt();
-                if size.value() > 0.0 {
+                if let Some(Some(chosen)) = self.directions.get(f) {
+                    pressing = chosen.map(T::from_f64);
+                } else if size.value() > 0.0 {
                     for (part, row) in pressing.iter_mut().zip(&rows) {
                         *part = force(row) / size;
                     }

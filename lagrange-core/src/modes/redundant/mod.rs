@@ -18,7 +18,7 @@ use crate::dynamics::{Dynamics, LeastForces};
 use crate::linear::{Cone, ConicPoint};
 use crate::mode::FrictionMode;
 use crate::modes::composite::{CompositeGuard, Part};
-use crate::modes::guard::{ConePlane, Guard};
+use crate::modes::guard::{ConePlane, Guard, stick_guards};
 use crate::modes::scale::Sizes;
 use crate::system::{Description, Friction, Normal};
 use bounds::Bounds;
@@ -30,6 +30,8 @@ pub struct RedundantForces<T> {
     least: LeastForces<T>,
     /// Signs of the forces of constraints, for the frictions that they carry.
     signs: Vec<f64>,
+    /// Per friction on several constraints, the direction in which they press where it is not that of their least forces.
+    directions: Vec<Option<[f64; 3]>>,
     bounds: Bounds<T>,
     /// Forces of frictions that can hold nothing.
     idle: Vec<Idle>,
@@ -46,6 +48,9 @@ const ROUNDING: f64 = 1e-10;
 /// Of so many constraints with open forces that carry friction both signs are tried.
 const MOST_SIGNS: usize = 8;
 
+/// So often are directions in which constraints press chosen at one state.
+const MOST_DIRECTIONS: usize = 32;
+
 /// A smaller weight of a composite guard, relative to the largest, is rounding.
 const NO_WEIGHT: f64 = 1e-12;
 
@@ -54,6 +59,7 @@ impl<T: Scalar> RedundantForces<T> {
     pub fn restart(&mut self) {
         self.clear();
         self.signs.clear();
+        self.directions.clear();
         (self.largest_drive, self.largest_force) = (0.0, 0.0);
     }
 
@@ -107,12 +113,15 @@ impl<T: Scalar> RedundantForces<T> {
             None => 1.0,
         };
         self.signs = (0..d.constraints.len()).map(of_least).collect();
+        self.directions.clear();
+        self.directions.resize(d.frictions.len(), None);
         self.list_bounds(dynamics);
         if !self.has_open() || self.bounds.forces.least(&self.bounds.forces.values) >= 0.0 {
             return;
         }
         let choices = self.choices_of_signs(dynamics);
         if choices.len() == 1 {
+            self.press_otherwise(dynamics, -ROUNDING);
             return;
         }
         let mut best = (f64::INFINITY, f64::INFINITY, self.signs.clone());
@@ -128,6 +137,53 @@ impl<T: Scalar> RedundantForces<T> {
         }
         self.signs = best.2;
         self.list_bounds(dynamics);
+        self.press_otherwise(dynamics, -ROUNDING);
+    }
+
+    /// Constraints that press a friction together press at least what their forces are in any direction: chooses the directions of forces that are nearest to
+    /// the bounds, again and again, until forces keep all bounds by more than the `border` or come no nearer. Whether they do.
+    fn press_otherwise(&mut self, dynamics: &Dynamics<T>, border: f64) -> bool {
+        let d = dynamics.description();
+        let by_several = |(f, friction): &(usize, &Friction)| {
+            let mut own = stick_guards(*f, friction);
+            matches!(friction.normal, Normal::Resultant(_)) && own.any(|guard| self.is_open(guard))
+        };
+        let frictions = d.frictions.iter().enumerate().filter(by_several);
+        let pressed: Vec<usize> = frictions.map(|(f, _)| f).collect();
+        if pressed.is_empty() {
+            return false;
+        }
+        let mut margin = self.bounds.forces.widest_margin();
+        for _ in 0..MOST_DIRECTIONS {
+            if margin > border {
+                break;
+            }
+            let before = self.directions.clone();
+            let forces = self.within_bounds();
+            let acting = dynamics.acting_rows();
+            for &f in &pressed {
+                let rows = d.frictions[f].normal.rows(d);
+                let mut direction = [0.0; 3];
+                for (part, row) in direction.iter_mut().zip(rows) {
+                    *part = acting
+                        .binary_search(&row)
+                        .map_or(0.0, |i| forces[i].value());
+                }
+                let size = direction
+                    .iter()
+                    .fold(0.0, |size: f64, part| size.hypot(*part));
+                self.directions[f] = (size > 0.0).then(|| direction.map(|part| part / size));
+            }
+            self.list_bounds(dynamics);
+            let next = self.bounds.forces.widest_margin();
+            if !(next > margin) {
+                self.directions = before;
+                self.list_bounds(dynamics);
+                break;
+            }
+            margin = next;
+        }
+        margin > border
     }
 
     /// The sign of a force of least norm, unless it vanishes beside the others.
@@ -175,7 +231,7 @@ impl<T: Scalar> RedundantForces<T> {
         let turns = best.is_some();
         self.signs = best.map_or(present, |(_, signs)| signs);
         self.list_bounds(dynamics);
-        turns
+        turns || self.press_otherwise(dynamics, border)
     }
 
     /// The present signs, and all others of constraints whose forces are open and carry frictions that stick.
@@ -361,6 +417,11 @@ impl<T: Scalar> RedundantForces<T> {
         if !self.has_open() {
             return dynamics.forces_of_acting(&self.least.forces);
         }
+        dynamics.forces_of_acting(&self.within_bounds())
+    }
+
+    /// The forces that act, of least norm within the bounds, or as near to that as any are.
+    fn within_bounds(&self) -> Vec<T> {
         let mut forces = self.least.forces.clone();
         if let Some(changes) = self.bounds.forces.shares(0.0) {
             for (force, &change) in forces.iter_mut().zip(&changes) {
@@ -368,7 +429,7 @@ impl<T: Scalar> RedundantForces<T> {
             }
             self.least.follow(changes.as_slice(), &mut forces);
         }
-        dynamics.forces_of_acting(&forces)
+        forces
     }
 
     /// Whether the force of each row is undetermined.

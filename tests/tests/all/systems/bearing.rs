@@ -3,7 +3,8 @@
 use super::{PI, state};
 use lagrange_core::prelude::*;
 use lagrange_tests::{
-    METHODS, agree, closure, event, methods_at, root, run, run_by, runge_kutta, words,
+    METHODS, Random, SINGLE_METHODS, TOLERANCES, agree, certified, closure, event, methods_at,
+    root, run, run_by, runge_kutta, times, words,
 };
 
 /// A body on a pin of some radius, which may be struck by a ball.
@@ -473,5 +474,102 @@ fn derivatives_go_through_bearings() {
             let difference = (a - 8.0 * b + 8.0 * c - d) / (12.0 * h);
             agree(format!("{k}, {i}"), found, difference, 2e-5);
         }
+    }
+}
+
+/// A bar on a journal, at rest beside a wall from which a motor pulls it away.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, theta),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(theta)^2,
+    potential = mass * gravity * y,
+    force(motor: theta = torque - rate * t),
+    constraint(pin_x: x == arm * sin(theta)),
+    constraint(pin_y: y == -arm * cos(theta)),
+    contact(wall: x <= 0),
+    friction(journal on (pin_x, pin_y): slip = radius * der(theta), static = mu, kinetic = share * mu),
+)]
+struct Resting {
+    mass: f64,
+    inertia: f64,
+    arm: f64,
+    gravity: f64,
+    radius: f64,
+    mu: f64,
+    share: f64,
+    torque: f64,
+    rate: f64,
+}
+
+/// What the wall presses would only load the journal in another direction: at last the friction of the weight alone holds the bar, to r μ m g.
+#[test]
+fn a_bar_beside_a_wall_slips_at_the_load_that_its_weight_gives() {
+    for (method, tolerance) in methods_at(SINGLE_METHODS, TOLERANCES) {
+        let mut random = Random::new(8);
+        for case in 0..8 {
+            let bar = Resting {
+                mass: random.between(0.5, 3.0),
+                inertia: random.between(0.05, 0.5),
+                arm: random.between(0.2, 1.0),
+                gravity: random.between(2.0, 12.0),
+                radius: random.between(0.05, 0.4),
+                mu: random.between(0.1, 0.9),
+                share: [1.0, 0.99, 0.7][case % 3],
+                torque: random.between(-0.5, 2.0),
+                rate: random.between(0.5, 3.0),
+            };
+            let holds = bar.radius * bar.mu * bar.mass * bar.gravity;
+            let torque = bar.torque.max(-0.5 * holds);
+            let bar = Resting { torque, ..bar };
+            let slips = (bar.torque + holds) / bar.rate;
+            let start = state(&[0.0, -bar.arm, 0.0], &[0.0; 3]);
+            let run = run_by(&bar, (method, tolerance), start, 1.05 * slips);
+            let what = format!("{method} at {tolerance:e}, {case}");
+            assert_eq!(
+                times(&run, "journal", "slips").len(),
+                1,
+                "{what}: {:?}",
+                words(&run)
+            );
+            agree(
+                &what,
+                event(&run, "journal", "slips").time,
+                slips,
+                100.0 * tolerance * slips.max(1.0),
+            );
+            certified(&what, &run);
+        }
+    }
+}
+
+/// On a helix the load does not depend on the friction, and from whichever speed it starts a bead slows down as it should.
+#[test]
+fn beads_of_any_mass_slide_on_a_helix() {
+    let mut random = Random::new(4);
+    for case in 0..200 {
+        let helix = Helix {
+            mass: random.between(0.5, 2.0),
+            radius: random.between(0.1, 1.0),
+            pitch: random.between(0.1, 1.0),
+            gravity: random.between(0.5, 10.0),
+            mu: random.between(0.2, 0.9),
+        };
+        let (c, speed) = (
+            helix.radius / helix.radius.hypot(helix.pitch),
+            random.between(0.5, 2.0),
+        );
+        let turn = speed * c / helix.radius;
+        let start = state(
+            &[helix.radius, 0.0, 0.0, 0.0],
+            &[0.0, speed * c, helix.pitch * turn, turn],
+        );
+        let slow = |v: f64| {
+            helix.mu * (v * v * c * c / helix.radius).hypot(helix.gravity * c)
+                + helix.gravity * (1.0 - c * c).sqrt()
+        };
+        let end = 0.5 * speed;
+        let time = lagrange_tests::integral(|more| 1.0 / slow(end + more), end, speed);
+        let found = run(&helix, start, time).final_state().v[3] * helix.radius / c;
+        agree(format!("{case}"), found, end, 1e-8);
     }
 }
