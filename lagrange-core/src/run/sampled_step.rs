@@ -147,7 +147,7 @@ impl<T: Scalar> Run<T> {
     }
 
     /// Samples the guards along the step.
-    fn sample(&mut self) -> Result<(), Error> {
+    pub(super) fn sample(&mut self) -> Result<(), Error> {
         let State { q, v, .. } = &mut self.stepper.scratch;
         let (curves, dynamics) = (&mut self.locator.polynomials, &mut self.dynamics);
         let sampled = curves.sample(dynamics, &self.now.mode, &self.stepper.step, q, v);

@@ -246,15 +246,23 @@ impl<T: Scalar> Run<T> {
         }
         let (h, degree) = best?;
         self.write_polynomial(h.min(self.end - self.now.t.value()), degree);
-        self.locator.polynomials.take_series(
-            &self.dynamics,
-            &self.now.mode,
-            &self.stepper.powers[..=degree],
-        );
+        if self.samples_hold() {
+            self.sharpen_roots();
+        } else {
+            self.locator.polynomials.take_series(
+                &self.dynamics,
+                &self.now.mode,
+                &self.stepper.powers[..=degree],
+            );
+        }
         let hit = self.first_hit();
         let distance = self.distance_at(hit.end());
         let decides = matches!(hit, Hit::Guards(_));
         if hit.end() == 0.0 || decides && distance < UNDECIDED {
+            return None;
+        }
+        let false_stop = matches!(hit, Hit::Stop(..)) && self.misses_its_root(&hit);
+        if false_stop || self.misses_a_mark(hit.end()).is_ok_and(|misses| misses) {
             return None;
         }
         self.now.distance = distance;
@@ -267,6 +275,15 @@ impl<T: Scalar> Run<T> {
             self.state_at_end(hit.end());
         }
         Some(hit)
+    }
+
+    /// Samples the guards along a leap: the degree that is best for the motion may be too low for what is a function of it. Whether their interpolation is
+    /// good; forces have no values close to the loss of rank.
+    fn samples_hold(&mut self) -> bool {
+        self.sample().is_ok()
+            && self
+                .interpolation_defect()
+                .is_ok_and(|defect| defect <= 1.0)
     }
 
     /// Whether constraints are about to lose their rank at the present state: their forces belong to another instant.
