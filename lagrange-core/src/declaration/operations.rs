@@ -173,18 +173,18 @@ impl Operations {
         arcs.map(|o| o.x)
     }
 
-    /// The bases of the roots, with an exponent of a half and whole numbers, that velocities or the time are in: those that a motion may take
+    /// The bases of the roots, with an exponent of a half and whole numbers, and whether velocities or the time are in them: those a motion often takes
     /// through zero, as it takes |v| of a body that turns back.
-    pub(crate) fn roots(&self) -> impl Iterator<Item = usize> {
+    pub(crate) fn roots(&self) -> impl Iterator<Item = (usize, bool)> {
         let is_root =
             |o: &&Operation| o.code == op::POWER && (2.0 * self.exponent(o)).rem_euclid(2.0) == 1.0;
-        let turns = |base: &usize| {
-            let mut parts = self.within([*base]).list.into_iter();
+        let turns = |base: usize| {
+            let mut parts = self.within([base]).list.into_iter();
             parts.any(|o| matches!(o.code, op::DERIVATIVE | op::TIME))
         };
         let mut bases: Vec<usize> = self.list.iter().filter(is_root).map(|o| o.x).collect();
         bases.dedup();
-        bases.into_iter().filter(turns)
+        bases.into_iter().map(move |base| (base, turns(base)))
     }
 
     /// Whether values, or their gradients, may jump where no branch says so: at the cut of an `atan2`, at the ends of `asin` and `acos`, where what a

@@ -116,6 +116,8 @@ pub struct Dynamics<T: Scalar> {
     by_functions: bool,
     /// Whether the last series was; a value between a series and what is read of it may not be.
     series_by_functions: bool,
+    /// Whether stops and marks have none in the last series.
+    without_watches: bool,
     /// What evaluates the equations.
     equations: Equations,
     /// t, q, v, v̇, λ of all rows at the last value.
@@ -164,6 +166,7 @@ impl<T: Scalar> Dynamics<T> {
             energies: output_mask::of_energies(d),
             by_functions: false,
             series_by_functions: false,
+            without_watches: false,
             equations: Equations::Emitted,
             inputs: vec![zero; 1 + 3 * n + rows],
             nodes: vec![zero; d.motion.outputs],

@@ -12,23 +12,35 @@ impl Shape {
         result: Register,
         d: &'static Description,
     ) -> Option<&'static str> {
-        let depends = self
-            .program(Extent::Series)
-            .dependents(result, self.registers);
-        let among = |nodes: &[Register], place: ValueRef| match place {
+        let reaches = self.reached(&self.report_nodes, result);
+        let watches = d.stops.iter().chain(d.marks);
+        let mut watches = watches.filter(|watch| watch.terms.iter().any(|term| reaches(*term)));
+        let motion = self.item_of_motion(result, d);
+        motion.or_else(|| watches.next().map(|watch| watch.name))
+    }
+
+    /// The same of what moves or ends a mode: stops and marks are left out.
+    #[cold]
+    pub(super) fn item_of_motion(
+        &self,
+        result: Register,
+        d: &'static Description,
+    ) -> Option<&'static str> {
+        let reaches = self.reached(&self.nodes, result);
+        let motion = numbers(d).find(|(_, place)| reaches(*place));
+        let branch = || d.branches.iter().find(|branch| reaches(branch.guard));
+        let motion = motion.map(|(name, _)| name);
+        motion.or_else(|| branch().map(|branch| branch.then))
+    }
+
+    /// Tells of a place in these nodes whether it depends on what goes to a register.
+    fn reached(&self, nodes: &[Register], result: Register) -> impl Fn(ValueRef) -> bool {
+        let program = self.program(Extent::Series);
+        let depends = program.dependents(result, self.registers);
+        move |place| match place {
             ValueRef::Node(node) => nodes.get(node).is_some_and(|r| depends[r.index()]),
             ValueRef::Zero | ValueRef::Constant(_) => false,
-        };
-        let watches = d.stops.iter().chain(d.marks).find(|watch| {
-            let mut terms = watch.terms.iter();
-            terms.any(|term| among(&self.report_nodes, *term))
-        });
-        let branches = d.branches.iter();
-        let mut branches = branches.filter(|branch| among(&self.nodes, branch.guard));
-        let mut of_motion = numbers(d).filter(|(_, place)| among(&self.nodes, *place));
-        let motion = of_motion.next().map(|(name, _)| name);
-        let branch = branches.next().map(|branch| branch.then);
-        motion.or(branch).or(watches.map(|watch| watch.name))
+        }
     }
 }
 

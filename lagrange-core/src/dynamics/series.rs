@@ -42,7 +42,7 @@ impl<T: Scalar> Dynamics<T> {
         let order = order.min(MAX_ORDER);
         self.work.series += 1;
         self.work.coefficients += order + 1;
-        self.series_by_functions = false;
+        (self.series_by_functions, self.without_watches) = (false, false);
         self.hold();
         if self.choose(q, v) {
             let expanded = self.modes[self.current].emitted_mut();
@@ -65,7 +65,10 @@ impl<T: Scalar> Dynamics<T> {
         if self.compiled().pattern.sliding.slip_directions.is_empty() {
             match self.start_series(order) {
                 Err(EvaluationError::NoSeries { .. }) => {
-                    self.with_roots(order, Self::expand_anew)?;
+                    match self.with_roots(order, Self::expand_anew) {
+                        Err(EvaluationError::NoSeries { .. }) => self.expand_past_watches(order),
+                        expanded => expanded,
+                    }?;
                     self.take_directions_of_series();
                     Ok(false)
                 }
@@ -235,13 +238,43 @@ impl<T: Scalar> Dynamics<T> {
         let (_, _, interpreted) = self.modes[self.current].parts();
         interpreted.evaluate(Extent::Series, REPORT);
         let (series, registers) = interpreted.series_memory(order);
-        match series.singular(registers) {
+        let first = series.singular(registers).next();
+        match first {
             Some((operation, result)) => Err(self.no_series(operation, result)),
             None => {
                 series.begin(registers);
                 Ok(())
             }
         }
+    }
+
+    /// The same as [`Self::expand_anew`] where only stops and marks have no series: their coefficients are no numbers then.
+    fn expand_past_watches(&mut self, order: usize) -> Result<(), EvaluationError> {
+        let description = self.description;
+        let (_, _, interpreted) = self.modes[self.current].parts();
+        interpreted.evaluate(Extent::Series, REPORT);
+        let (shape, registers, series) = interpreted.parts();
+        let Some(series) = series else {
+            return Ok(());
+        };
+        let of_motion = |&(_, result): &(Operation, Register)| {
+            shape.item_of_motion(result, description).is_some()
+        };
+        let first = series.singular(registers).find(of_motion);
+        match first {
+            Some((operation, result)) => Err(self.no_series(operation, result)),
+            None => {
+                series.begin(registers);
+                self.without_watches = true;
+                self.expand(order);
+                Ok(())
+            }
+        }
+    }
+
+    /// Whether some stop or mark has no series at the state of the last one.
+    pub(crate) fn is_without_watches(&self) -> bool {
+        self.without_watches
     }
 
     /// An operation, whose result goes there, has no series.

@@ -95,7 +95,7 @@ fn expand(x: &[&[f64]], f: Function) -> Result<Vec<f64>, Operation> {
     program.evaluate(0, &mut first);
     // The inputs come from outside, as solutions of equations do: the whole program runs after them.
     let mut series = Series::new(&program, first.len(), &[result], core::iter::empty(), 0);
-    if let Some((operation, _)) = series.singular(&first) {
+    if let Some((operation, _)) = series.singular(&first).next() {
         return Err(operation);
     }
     series.begin(&first);

@@ -26,11 +26,11 @@ const NEGLIGIBLE: f64 = -100.0;
 /// Per order of a method: a rise of the exponent by so much has small terms of higher orders.
 const RISE: f64 = 0.5;
 
-/// What is divided by and has fallen to this share of what it was may pass zero: it is known no better, and a quotient that has not been felt until
-/// then, as sin(x)/x, never is.
-const LEAST: f64 = 1e-18;
+/// What is divided by and has fallen to this share of what it was may pass zero: it is a rounding error of what it is made of, as cos(x) is beside
+/// π/2, and a quotient that has not been felt until then, as sin(x)/x, never is.
+const LEAST: f64 = f64::EPSILON;
 
-/// What is divided by and changes by less than this share over a step, by its first two rates, is looked at no closer.
+/// What is divided by, or a root of positions is taken of, and changes by less than this share over a step, by its first two rates, is looked at no closer.
 const FAR: f64 = 0.5;
 
 /// Lower powers grow by no more than a series of a loose tolerance follows.
@@ -103,12 +103,24 @@ struct Angle {
 #[derive(Debug)]
 struct Root {
     base: usize,
-    /// Whether it is that of 1 − base².
-    of_arc: bool,
+    kind: Kind,
+    /// Whether it may come to zero in the step.
+    near: bool,
     /// The root and its change over a piece, at the beginning of the piece.
     before: Ends,
     /// Where the piece ends that it first has a corner in, as a part of the step.
     corner: Option<f64>,
+}
+
+/// What a root is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// Of positions.
+    Place,
+    /// Of velocities, or of the time.
+    Rate,
+    /// 1 − base².
+    Arc,
 }
 
 impl Hidden {
@@ -125,9 +137,12 @@ impl Hidden {
         });
         let mut arguments: Vec<(usize, Function)> = exponentials.chain(powers).collect();
         let mut angles: Vec<(usize, f64)> = acting.angles().collect();
-        let arcs = acting.arcs().map(|base| (base, true));
-        let roots = acting.roots().map(|base| (base, false));
-        let mut roots: Vec<(usize, bool)> = roots.chain(arcs).collect();
+        let arcs = acting.arcs().map(|base| (base, Kind::Arc));
+        let roots = acting.roots().map(|(base, of_rates)| match of_rates {
+            true => (base, Kind::Rate),
+            false => (base, Kind::Place),
+        });
+        let mut roots: Vec<(usize, Kind)> = roots.chain(arcs).collect();
         let bases = roots.iter().map(|(base, _)| base);
         let wanted = arguments.iter().map(|(argument, _)| argument);
         let wanted = wanted.chain(angles.iter().map(|(angle, _)| angle));
@@ -152,9 +167,10 @@ impl Hidden {
             jumps: 0.0,
             beyond: None,
         });
-        let roots = roots.into_iter().map(|(base, of_arc)| Root {
+        let roots = roots.into_iter().map(|(base, kind)| Root {
             base,
-            of_arc,
+            kind,
+            near: true,
             before: [0.0; 2],
             corner: None,
         });
@@ -179,9 +195,9 @@ impl Hidden {
         }
     }
 
-    /// Whether there are roots among them.
-    pub(super) fn has_roots(&self) -> bool {
-        self.roots.iter().any(|root| !root.of_arc)
+    /// Whether there are roots of velocities or of the time among them.
+    pub(super) fn has_roots_of_rates(&self) -> bool {
+        self.roots.iter().any(|root| root.kind == Kind::Rate)
     }
 
     /// The part of a step, up to `end` of it, that hides nothing from a method of this order: `end`, or less.
@@ -198,13 +214,22 @@ impl Hidden {
         let ends = |evaluator: &Evaluator, value: usize| {
             [evaluator.value(value), change * evaluator.rate(value)]
         };
+        let time = end * step.h.value();
+        let most = |value: usize| {
+            let [rate, bend] = [1, 2].map(|k| self.evaluator.coefficient(value, k));
+            time * (rate.abs() + 2.0 * time * bend.abs())
+        };
         for argument in &mut self.arguments {
-            let [rate, bend] = [1, 2].map(|k| self.evaluator.coefficient(argument.value, k));
             argument.before = ends(&self.evaluator, argument.value);
-            argument.begin(rise, [rate, bend], end * step.h.value());
+            argument.begin(rise, most(argument.value));
         }
-        let near = self.arguments.iter().any(|a| a.border.is_some());
-        if !near && self.angles.is_empty() && self.roots.is_empty() {
+        for root in &mut self.roots {
+            let base = self.evaluator.value(root.base).abs();
+            root.near = root.kind != Kind::Place || most(root.base) >= FAR * base;
+        }
+        let borders = self.arguments.iter().any(|a| a.border.is_some());
+        let near = self.roots.iter().any(|root| root.near);
+        if !borders && !near && self.angles.is_empty() {
             return end;
         }
         for angle in &mut self.angles {
@@ -232,9 +257,9 @@ impl Hidden {
                 }
                 angle.before = after;
             }
-            for root in &mut self.roots {
+            for root in self.roots.iter_mut().filter(|root| root.near) {
                 let base = ends(&self.evaluator, root.base);
-                if root.of_arc && base[1].abs() > SWING {
+                if root.kind == Kind::Arc && base[1].abs() > SWING {
                     return f64::max((n - 1) as f64, 0.5) * piece;
                 }
                 let after = root.ends(base);
@@ -278,19 +303,18 @@ impl Hidden {
 impl Root {
     /// The root and its change, by those of its base.
     fn ends(&self, [base, change]: Ends) -> Ends {
-        of_root(match self.of_arc {
-            true => [1.0 - base * base, -2.0 * base * change],
-            false => [base, change],
+        of_root(match self.kind {
+            Kind::Arc => [1.0 - base * base, -2.0 * base * change],
+            Kind::Place | Kind::Rate => [base, change],
         })
     }
 }
 
 impl Argument {
-    /// Says where it may go over a step that takes `time`, so that its function does not grow by more than the exponential of `rise`. The argument is
-    /// known where the step begins, and the coefficients of its series are `rate` and `bend`.
-    fn begin(&mut self, rise: f64, [rate, bend]: [f64; 2], time: f64) {
+    /// Says where it may go over a step, so that its function does not grow by more than the exponential of `rise`. The argument is known where the
+    /// step begins, and its `change` over the step by its first two rates.
+    fn begin(&mut self, rise: f64, change: f64) {
         let size = self.before[0].abs();
-        let change = time * (rate.abs() + 2.0 * time * bend.abs());
         self.border = match &mut self.function {
             Function::Exponential(factor) => {
                 // The function is small where the argument is large, in exp(−x) as in 1/cosh(x).

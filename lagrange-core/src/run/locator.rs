@@ -58,6 +58,8 @@ pub(super) struct Locator<T> {
     pub(super) mark_below: Vec<Vec<bool>>,
     /// Per mark, its term that passed zero at the end of the last step.
     pub(super) mark_passed: Vec<Option<usize>>,
+    /// Per mark, when it was passed last.
+    pub(super) mark_times: Vec<f64>,
     pub(super) marks: Vec<(usize, f64)>,
 }
 
@@ -87,6 +89,7 @@ impl<T: Scalar> Locator<T> {
             stop_below: nowhere(d.stops),
             mark_below: nowhere(d.marks),
             mark_passed: vec![None; d.marks.len()],
+            mark_times: vec![f64::NEG_INFINITY; d.marks.len()],
             marks: Vec::new(),
         }
     }
@@ -113,6 +116,7 @@ impl<T: Scalar> Locator<T> {
             stop_below,
             mark_below,
             mark_passed,
+            mark_times,
             marks,
         } = self;
         polynomials.composites.clear();
@@ -131,6 +135,7 @@ impl<T: Scalar> Locator<T> {
         let watches = stop_below.iter_mut().chain(mark_below);
         watches.for_each(|terms| terms.fill(false));
         mark_passed.fill(None);
+        mark_times.fill(f64::NEG_INFINITY);
         marks.clear();
     }
 

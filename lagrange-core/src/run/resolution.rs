@@ -38,6 +38,11 @@ pub(super) struct Resolution {
 }
 
 impl Resolution {
+    /// The longest step so far.
+    pub(super) fn longest(&self) -> f64 {
+        self.longest
+    }
+
     /// Whether a step of this length is to be looked at.
     fn examines(&mut self, h: f64) -> bool {
         if h > self.longest {

@@ -94,7 +94,8 @@ impl<T: Scalar> Run<T> {
         if !self.locator.rests.is_empty() {
             self.come_to_rest()?;
         }
-        let roots = self.hidden.as_ref().is_some_and(Hidden::has_roots);
+        let roots = self.hidden.as_ref();
+        let roots = roots.is_some_and(Hidden::has_roots_of_rates);
         let mut fallen = self.locator.fallen.iter();
         if roots && fallen.any(|guard| matches!(guard, Guard::Slip(_))) {
             self.drop_rounding_of_velocities();

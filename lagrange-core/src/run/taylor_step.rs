@@ -23,6 +23,12 @@ const LOWER: usize = 4;
 /// So many breaks of guards in a row are no instants that can be passed: a slip that fades has more than a thousand before it rests.
 const MOST_BREAKS: usize = 100_000;
 
+/// A step up to this share of the longest since the last switch may pass a break of stops and marks that are far from zero,
+const BRIEF: f64 = 1e-4;
+
+/// or up to this one of the step that the motion allows.
+const MOMENT: f64 = 1e-7;
+
 /// Guards that ask for steps shorter than this share of what the motion allows may be lost in rounding.
 const SHORT: f64 = 1e-3;
 
@@ -117,6 +123,12 @@ impl<T: Scalar> Run<T> {
                 true => taylor::worse(guards, self.guard_defect_within(&hit, looked)),
                 false => guards,
             };
+            let passes =
+                !(guards <= 1.0) && motion <= 1.0 && self.only_watches_break(looked, moves);
+            let guards = if passes { 0.0 } else { guards };
+            if passes && self.stepper.breaks >= MOST_BREAKS {
+                return Err(self.breaks_on());
+            }
             // A step must not end where the constraints lose rank.
             let distance = self.rank.distance(&self.dynamics);
             if self.ends_close(distance) && closer < MOST_RETREATS {
@@ -148,7 +160,10 @@ impl<T: Scalar> Run<T> {
                         return Err(Error::Undirected { time, item });
                     }
                     self.now.distance = distance;
-                    self.stepper.breaks = 0;
+                    self.stepper.breaks = match passes {
+                        true => self.stepper.breaks + 1,
+                        false => 0,
+                    };
                     self.stepper.guarded = guarded.then(|| {
                         let truncation = self.guard_truncation(&hit, looked);
                         h * looked * taylor::stretch(guards.min(truncation), order)
@@ -248,6 +263,18 @@ impl<T: Scalar> Run<T> {
         self.locator.rests.clear();
         self.now.distance = self.rank.distance(&self.dynamics);
         Ok(Hit::Nothing)
+    }
+
+    /// Whether the step is short and the guards that are off at part `looked` of it are terms of stops and of marks that stay far from zero; they are taken
+    /// for constant then. acos(cos x) is known to within 1e-16/δ only at a distance δ from its kink, and within 1e-8 it is rounding alone.
+    fn only_watches_break(&mut self, looked: f64, moves: f64) -> bool {
+        let longest = (BRIEF * self.stepper.resolution.longest()).max(MOMENT * moves);
+        let (curves, dynamics) = (&mut self.locator.polynomials, &mut self.dynamics);
+        let tolerance = self.settings.tolerance;
+        // Coefficients beyond all numbers are something else.
+        let told = dynamics.is_without_watches() || curves.without_series().is_none();
+        told && looked * self.stepper.step.h.value() <= longest
+            && curves.holds_watches(dynamics, &self.now.mode, looked, tolerance)
     }
 
     /// What is wrong with guards that bound step after step.

@@ -16,6 +16,9 @@ use core::ops::ControlFlow::{Break, Continue};
 /// Coefficients this much smaller than all together cannot be told from 0: some degrees times rounding.
 pub(super) const RESOLUTION: f64 = 1e-13;
 
+/// Terms of higher order are not counted beyond so many times the first ones.
+const LATER: f64 = 64.0;
+
 /// So many units of rounding are between the time of a root and of the same one when the next step begins.
 const UNITS_OF_TIME: f64 = 64.0;
 
@@ -254,8 +257,16 @@ impl<T: Scalar> Run<T> {
         }
         let mut marks = core::mem::take(&mut self.locator.marks);
         self.marks_until(end, &mut marks);
+        let resolution = self.resolution_of_time() * self.stepper.step.h.value();
         for &(mark, s) in &marks {
             let s = self.exact_mark(mark, s);
+            let time = self.stepper.step.time(s);
+            // Where a guard jumps steps are as short as time resolves, and rounding may put a term back to the side from which it has come; each of both
+            // times is known to within the resolution.
+            let last = core::mem::replace(&mut self.locator.mark_times[mark], time.value());
+            if time.value() - last <= 2.0 * resolution {
+                continue;
+            }
             let mut state = core::mem::take(&mut self.stepper.scratch);
             self.now.valued = false;
             let (step, dynamics) = (&self.stepper.step, &mut self.dynamics);
@@ -269,7 +280,6 @@ impl<T: Scalar> Run<T> {
                 }
             }
             step.state_into(s, &mut state.q, &mut state.v);
-            let time = step.time(s);
             self.log_watch(Subject::Mark(mark), EventKind::Mark, time, &state);
             self.stepper.scratch = state;
         }
@@ -325,8 +335,11 @@ fn is_below(curve: &[f64], s: f64, resolution: f64, was_below: bool) -> bool {
 /// Whether a curve, `now` at part `s` of a step, is zero there, as far as rounding can tell: of its terms, or of the time, to which the
 /// step is resolved to within this part of it.
 fn is_zero(curve: &[f64], s: f64, now: f64, resolution: f64) -> bool {
-    let size: f64 = curve.iter().map(|c| c.abs()).sum();
-    let steepest = curve.len() as f64 * size;
+    // Terms of a long step may be large later, and those of a series that has stopped converging are.
+    let all: f64 = curve.iter().map(|c| c.abs()).sum();
+    let first = curve.iter().take(2).map(|c| c.abs());
+    let size = all.min(LATER * (first.sum::<f64>() + now.abs()));
+    let steepest = curve.len() as f64 * all;
     let far = now.abs() > (RESOLUTION * size).max(resolution * steepest);
     !far && now.abs() <= (RESOLUTION * size).max(resolution * slope(curve, s).abs())
 }

@@ -378,18 +378,18 @@ impl<T: Scalar> Series<T> {
         }
     }
 
-    /// The first operation that has no Taylor series where the registers hold the values `first`, and where its result goes.
+    /// The operations that have no Taylor series where the registers hold the values `first`, and where their results go.
     #[inline]
-    pub(crate) fn singular(&self, first: &[T]) -> Option<(Operation, Register)> {
+    pub(crate) fn singular(&self, first: &[T]) -> impl Iterator<Item = (Operation, Register)> {
         let at = |register: Register| first[register.index()].value();
-        let fails = |&&(operation, i): &&(Operation, Instruction)| match operation {
+        let fails = move |&&(operation, i): &&(Operation, Instruction)| match operation {
             _ if self.roots.iter().any(|(_, root)| root.own().to == i.to) => false,
             Operation::Division => at(i.y) == 0.0,
             Operation::InverseSine => !(at(i.x).abs() < 1.0),
             Operation::Angle => at(i.x) == 0.0 && at(i.y) == 0.0,
             _ => !(at(i.x) > 0.0),
         };
-        let found = self.critical.iter().find(fails);
+        let found = self.critical.iter().filter(fails);
         found.map(|&(operation, i)| (operation, i.to))
     }
 

@@ -11,6 +11,9 @@ use crate::modes::guard::Guard;
 /// A guard on the other side of zero than its polynomial is off by more than rounding explains: this much more is counted.
 const OTHER_SIDE: f64 = 1e3;
 
+/// A guard that changes by no more than this share of its value hardly changes.
+const STEADY: f64 = 1e-2;
+
 /// So much a guard of size 1 is off by rounding; see [`GuardPolynomials::rounding`].
 pub(super) const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
@@ -64,6 +67,42 @@ impl GuardPolynomials {
         let errors = self.errors(dynamics, mode, s, [tolerance, 0.0, 0.0], known);
         let ratios = errors.map(|off| (off.error - off.rounding) / off.allowed);
         ratios.fold(0.0, f64::max)
+    }
+
+    /// Makes stops and marks constant whose polynomials are off at part `s` of the step, if they hardly change up to there and no other guard is off. Whether
+    /// that is so.
+    #[cold]
+    pub(in crate::run) fn holds_watches<T: Scalar>(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        mode: &Mode,
+        s: f64,
+        tolerance: f64,
+    ) -> bool {
+        let errors = self.errors(dynamics, mode, s, [tolerance, 0.0, 0.0], |_| (false, 0.0));
+        let is_off =
+            |off: GuardError| !(off.error.is_finite() && off.error <= off.allowed + off.rounding);
+        let off: Vec<usize> = errors
+            .enumerate()
+            .filter_map(|(k, off)| is_off(off).then_some(k))
+            .collect();
+        let is_steady = |&index: &usize| {
+            let now = self.value(index, mode, dynamics);
+            let [before, rate, ..] = *self.curve(index) else {
+                return false;
+            };
+            let little = STEADY * before.abs();
+            let watches = matches!(self.list[index].guard, Guard::Stop(..) | Guard::Mark(..));
+            // Where there is no series there is no rate.
+            watches && (now - before).abs() <= little && !(rate.is_finite() && rate.abs() > little)
+        };
+        let steady = off.iter().all(is_steady);
+        if steady {
+            for index in off {
+                self.coefficients[index * self.width..][..self.width][1..].fill(0.0);
+            }
+        }
+        steady
     }
 
     /// The values of the guards that read forces at the last value of `dynamics`.
