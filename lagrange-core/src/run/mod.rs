@@ -41,6 +41,7 @@ mod stiffness;
 mod switch;
 mod taylor_step;
 mod touching;
+mod vanishing_loads;
 mod vanishing_slips;
 mod watches;
 

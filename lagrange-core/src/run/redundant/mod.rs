@@ -34,6 +34,12 @@ const LAST_TERMS: f64 = 1e-6;
 /// The terms of this order are no larger than this share, where directions turn: what turns by a radian is looked at four times.
 const TURNING: (usize, f64) = (8, 1e-2);
 
+/// Bounds that are all this small, relative, are those of no load.
+const NO_LOAD: f64 = 1e-6;
+
+/// Where loads turn as a step begins one is tried that is shorter by this.
+const SHORTER: f64 = 0.25;
+
 /// So many steps later it is seen whether forces are allowed that are not at the instant.
 const LATER: [f64; 3] = [1e-6, 1e-4, 1e-2];
 
@@ -235,8 +241,8 @@ impl<T: Scalar> Run<T> {
         Ok(turns)
     }
 
-    /// Whether other signs of constraint forces allow forces from here on which allow none but zero at this instant, where what presses a friction turns; they
-    /// are then taken.
+    /// Whether forces are allowed from here on of which none but zero are at this instant, where what presses a friction turns; signs of constraint forces that
+    /// allow them are then taken.
     fn turns_soon(&mut self) -> Result<bool, Error> {
         let step = &self.stepper.step;
         let part = ((self.now.t - step.t) / step.h).value();
@@ -244,12 +250,44 @@ impl<T: Scalar> Run<T> {
             run.evaluate_end(part + later).is_ok()
                 && run.switcher.redundant.turn(&mut run.dynamics, ROOT)
         };
-        let found = LATER.iter().any(|later| turns(self, later));
+        let loads = self.switcher.redundant.values();
+        let vanishes =
+            loads.iter().all(|value| value.abs() <= NO_LOAD) && self.keeps_bounds_soon(part);
+        let found = vanishes || LATER.iter().any(|later| turns(self, later));
         self.evaluate()?;
         let redundant = &mut self.switcher.redundant;
         redundant.follow(&mut self.dynamics);
         let critical = redundant.critical(BORDER);
-        Ok(found && critical.is_none_or(|composite| self.joint_value(&composite) >= -ROOT))
+        let found = found && critical.is_none_or(|composite| self.joint_value(&composite) >= -ROOT);
+        if found && vanishes {
+            self.begin_without_loads(part);
+        }
+        Ok(found)
+    }
+
+    /// Whichever guards decide from here on, at part `part` of the step, begin at zero. Where the step begins here it may have been so long that loads turn
+    /// again in it, and with guards that mean nothing here: the next one is shorter.
+    fn begin_without_loads(&mut self, part: f64) {
+        let begin = (0..2 * MOST_CORRECTIONS).map(|k| (Guard::Composite(k), 1));
+        self.locator.zeros.extend(begin);
+        if part == 0.0 {
+            let shorter = Some(SHORTER * self.stepper.step.h.value());
+            (self.stepper.guarded, self.stepper.wanted) = (shorter, shorter);
+        }
+    }
+
+    /// Whether forces keep all bounds behind part `part` of the step, with the signs of constraint forces that there are.
+    fn keeps_bounds_soon(&mut self, part: f64) -> bool {
+        let mut clear = false;
+        let keeps = LATER.iter().all(|later| {
+            self.evaluate_end(part + later).is_ok() && {
+                let redundant = &mut self.switcher.redundant;
+                redundant.follow(&mut self.dynamics);
+                clear |= redundant.critical(ROOT).is_none();
+                redundant.critical(-ROOT).is_none()
+            }
+        });
+        keeps && clear
     }
 
     /// Locates where between these parts of the step forces cease to keep all bounds, and adds the composite guard that says so; `dynamics` and
