@@ -16,7 +16,7 @@ const BEYOND: f64 = 10.0;
 impl<T: Scalar> Run<T> {
     /// Lets gaps that the step at hand hits fall as far below zero as their polynomials do, where these turn before they have fallen by more than the
     /// tolerance, and the gaps themselves vanish there at most, as far as rounding tells; whether there are such. The motion is known up to part
-    /// `known` of the step.
+    /// `known` of the step. Cones of friction too, where [load and force vanish together](super::vanishing_loads).
     ///
     /// What rises to a body and comes to rest where it meets it would be hit a little before, by the root of the error of its series: at a speed that
     /// it does not have, while it brakes harder than what lies on it can be braked with.
@@ -27,12 +27,20 @@ impl<T: Scalar> Run<T> {
         let mut passes = false;
         for k in 0..self.locator.fallen.len() {
             let guard = self.locator.fallen[k];
-            let Guard::Gap(contact) = guard else {
-                continue;
+            let margin = match guard {
+                Guard::Gap(contact) => {
+                    let extent = self.locator.polynomials.extents[contact];
+                    let depth = self.depth_of_touch(contact, end, known);
+                    depth.map(|depth| 2.0 * depth / extent)
+                }
+                Guard::StickCone(friction) => {
+                    let depth = self.depth_where_load_vanishes(friction, end, known);
+                    depth.map(|depth| 2.0 * depth)
+                }
+                _ => None,
             };
-            if let Some(depth) = self.depth_of_touch(contact, end, known) {
-                let extent = self.locator.polynomials.extents[contact];
-                self.locator.polynomials.lower(guard, 2.0 * depth / extent);
+            if let Some(margin) = margin {
+                self.locator.polynomials.lower(guard, margin);
                 passes = true;
             }
         }

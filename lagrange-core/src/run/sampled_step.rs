@@ -165,7 +165,7 @@ impl<T: Scalar> Run<T> {
             if hit.end() == 0.0 || self.hides_a_start() {
                 return self.taylor_step().map(Some);
             }
-            if self.passes_over_touches(&hit, 1.0) || self.passes_over_vanishing_loads(&hit, 1.0) {
+            if self.passes_over_touches(&hit, 1.0) {
                 self.sample()?;
                 continue;
             }

@@ -105,9 +105,7 @@ impl<T: Scalar> Run<T> {
                 h = shorter;
                 continue;
             }
-            if self.passes_over_touches(&hit, moves / h)
-                || self.passes_over_vanishing_loads(&hit, moves / h)
-            {
+            if self.passes_over_touches(&hit, moves / h) {
                 continue;
             }
             let turns = self.gap_that_turns(&hit, moves / h);

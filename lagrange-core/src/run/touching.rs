@@ -15,7 +15,7 @@ const DRIFT: f64 = 50.0;
 const INSTANT: f64 = 1e-12;
 
 /// Instants are known to so many units of the rounding of time.
-const UNITS_OF_TIME: f64 = 8.0;
+pub(super) const UNITS_OF_TIME: f64 = 8.0;
 
 /// What is no larger than this beside the terms that make it is what rounding has left of zero.
 pub(super) const ROUNDING: f64 = 1e-13;

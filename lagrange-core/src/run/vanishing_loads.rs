@@ -6,7 +6,7 @@
 //! and behind it, nothing happens.
 
 use super::Run;
-use super::hit::Hit;
+use super::touching::UNITS_OF_TIME;
 use crate::arithmetic::{Scalar, epsilon};
 use crate::events::dip;
 use crate::modes::guard::Guard;
@@ -17,9 +17,6 @@ const BESIDE: [f64; 4] = [1e-1, 1e-2, 1e-4, 1e-6];
 
 /// What is no larger than this beside the forces of the step is nothing.
 const NOTHING: f64 = 1e-12;
-
-/// Instants are known to so many units of the rounding of time.
-const UNITS_OF_TIME: f64 = 8.0;
 
 /// What presses a friction, the force that it holds, and what it can hold, at an instant.
 #[derive(Clone, Copy)]
@@ -45,28 +42,14 @@ impl Held {
 }
 
 impl<T: Scalar> Run<T> {
-    /// Lets cones that the step at hand hits fall as far below zero as their polynomials do where load and force vanish together; whether there are such. The
-    /// motion is known up to part `known` of the step.
-    pub(super) fn passes_over_vanishing_loads(&mut self, hit: &Hit, known: f64) -> bool {
-        let Hit::Guards(end) = *hit else {
-            return false;
-        };
-        let mut passes = false;
-        for k in 0..self.locator.fallen.len() {
-            let guard = self.locator.fallen[k];
-            let Guard::StickCone(friction) = guard else {
-                continue;
-            };
-            if let Some(depth) = self.depth_where_load_vanishes(friction, end, known) {
-                self.locator.polynomials.lower(guard, 2.0 * depth);
-                passes = true;
-            }
-        }
-        passes
-    }
-
-    /// How far the polynomial of the cone of a friction falls below zero behind its root at part `end` of the step, if load and force vanish there.
-    fn depth_where_load_vanishes(&mut self, friction: usize, end: f64, known: f64) -> Option<f64> {
+    /// How far the polynomial of the cone of a friction falls below zero behind its root at part `end` of the step, if load and force vanish
+    /// there. The motion is known up to part `known` of the step.
+    pub(super) fn depth_where_load_vanishes(
+        &mut self,
+        friction: usize,
+        end: f64,
+        known: f64,
+    ) -> Option<f64> {
         let guard = Guard::StickCone(friction);
         let normal = self.description().frictions[friction].normal;
         let curves = &self.locator.polynomials;
