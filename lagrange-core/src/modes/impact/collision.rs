@@ -53,10 +53,15 @@ pub(super) struct FrictionRow<T> {
     pub slide: T,
 }
 
-impl<T> FrictionRow<T> {
+impl<T: Scalar> FrictionRow<T> {
     /// Its rows, one per slip component.
     pub fn rows(&self) -> Range<usize> {
         self.row..self.row + self.components
+    }
+
+    /// Whether it has an impulse where it is pressed.
+    pub fn is_rough(&self) -> bool {
+        !(self.stick.is_zero() && self.slide.is_zero())
     }
 }
 

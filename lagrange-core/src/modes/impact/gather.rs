@@ -80,7 +80,43 @@ impl<T: Scalar> Gathering<T> {
             let terms = terms.map(|(a, v)| a.value().abs() * (v.value().abs() + AT_REST));
             out.terms.push(terms.sum());
         }
+        for i in 0..out.size {
+            if !self.is_bound(i, out.g(i, i).value()) {
+                continue;
+            }
+            for k in 0..out.size {
+                out.response[i * out.size + k] = T::zero();
+                out.response[k * out.size + i] = T::zero();
+            }
+        }
         true
+    }
+
+    /// Whether constraints leave nothing of a row but rounding, so that no impulse in it has an effect: the slip of a disc on a belt that is geared to it.
+    /// The velocities that an impulse causes are rounding beside those that it would cause without constraints, or lie across the row.
+    fn is_bound(&self, row: usize, response: f64) -> bool {
+        if self.bilateral.is_empty() {
+            return false;
+        }
+        let size = self.scale.len();
+        let n = size - self.bilateral.len();
+        let a = &self.jacobian[row * n..][..n];
+        let changes = &self.answers[row * size..][..n];
+        let inertia = |j: usize| self.matrix[j * size + j].value().abs() / self.scale[j].powi(2);
+        let least = HARDLY.powi(-4) * (0..n).map(inertia).fold(0.0, f64::max);
+        let (mut along, mut moved) = (0.0, 0.0);
+        for (j, (a, change)) in a.iter().zip(changes).enumerate() {
+            // In units in which the coordinate has a mass of 1, if it has one to speak of.
+            let unit = match inertia(j) {
+                mass if mass > least => mass.sqrt().recip(),
+                _ => self.scale[j],
+            };
+            along += (a.value() * unit).powi(2);
+            moved += (change.value() / unit).powi(2);
+        }
+        let rounding = rounding::<T>(ROUNDING);
+        let (along, moved) = (along.sqrt(), moved.sqrt());
+        moved <= rounding * along || response.abs() <= rounding * along * moved
     }
 
     /// What a unit impulse of each row does; false if that is not finite.

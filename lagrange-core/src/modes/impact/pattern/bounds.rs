@@ -65,10 +65,20 @@ impl<T: Scalar> Pattern<T> {
         self.bounds.clear();
         let place = |row: usize| self.unknowns.iter().position(|&unknown| unknown == row);
         let one = T::one();
+        // An impulse that is zero among those of least norm by coincidence is as large as the others when it changes.
+        let mut impulses = self.impulses.clone();
+        for (&row, &impulse) in self.unknowns.iter().zip(least) {
+            impulses[row] = impulse;
+        }
+        let effort = c.effort(&impulses);
+        let size = |row: usize| match c.strength(row) {
+            0.0 => 0.0,
+            strength => effort / strength,
+        };
         for (k, touch) in c.touches.iter().enumerate() {
             if let Some(i) = place(touch.row) {
                 let push = [(&[(i, one)][..], -phase.least[k])];
-                self.bounds.add(push, least, freedom, || 0.0);
+                self.bounds.add(push, least, freedom, || size(touch.row));
             }
         }
         for (rub, slide) in c.rubs.iter().zip(&self.slides) {
@@ -77,6 +87,7 @@ impl<T: Scalar> Pattern<T> {
                 continue;
             };
             let most = rub.stick * rub.factor;
+            let size = || size(rub.row).max(most.value() * size(bearer));
             let (limit, constant) = match place(bearer) {
                 Some(n) => {
                     // The sign of a constraint's impulse is that which it has.
@@ -93,7 +104,7 @@ impl<T: Scalar> Pattern<T> {
             if rub.components == 1 {
                 for sign in [-one, one] {
                     let side = [(&[(i, sign), limit][..], constant)];
-                    self.bounds.add(side, least, freedom, || 0.0);
+                    self.bounds.add(side, least, freedom, size);
                 }
             } else {
                 let cone = [
@@ -101,7 +112,7 @@ impl<T: Scalar> Pattern<T> {
                     (&[(i, one)][..], T::zero()),
                     (&[(i + 1, one)][..], T::zero()),
                 ];
-                self.bounds.add(cone, least, freedom, || 0.0);
+                self.bounds.add(cone, least, freedom, size);
             }
         }
         self.bounds.complete();

@@ -83,12 +83,13 @@ pub(super) struct Pattern<T> {
 impl<T: Scalar> Pattern<T> {
     /// Whether friction `rub` can have an impulse.
     pub fn bears(&self, rub: &FrictionRow<T>, phase: &Phase<T>) -> bool {
-        match rub.bearer {
-            NormalSource::ContactRow(k) => {
-                phase.within[k] && (self.pressed[k] || phase.least[k].value() > 0.0)
+        rub.is_rough()
+            && match rub.bearer {
+                NormalSource::ContactRow(k) => {
+                    phase.within[k] && (self.pressed[k] || phase.least[k].value() > 0.0)
+                }
+                NormalSource::ConstraintRow(_) => true,
             }
-            NormalSource::ConstraintRow(_) => true,
-        }
     }
 
     /// Solves the equations, from the given directions of slip; false if they have no solution.

@@ -16,7 +16,8 @@ impl<T: Scalar> Search<T> {
     /// Number of combinations, unless it is beyond counting.
     pub(super) fn combinations(&self, c: &Collision<T>) -> Option<usize> {
         let contacts = 1_usize.checked_shl(self.taking.len() as u32)?;
-        c.rubs.iter().try_fold(contacts, |n, rub| {
+        let mut rough = c.rubs.iter().filter(|rub| rub.is_rough());
+        rough.try_fold(contacts, |n, rub| {
             n.checked_mul(if rub.components == 1 { 3 } else { 2 })
         })
     }

@@ -136,7 +136,7 @@ impl<T: Scalar> Search<T> {
             let rough = c
                 .rubs
                 .iter()
-                .any(|rub| rub.bearer == NormalSource::ContactRow(k));
+                .any(|rub| rub.is_rough() && rub.bearer == NormalSource::ContactRow(k));
             phase.within[k] && !p.pressed[k] && !rough && over.value() <= p.noise[row]
         };
         if !self.taking.iter().any(|&k| tight(&self.pattern, k)) {
