@@ -60,9 +60,11 @@ impl<T: Scalar> Run<T> {
         let before = core::mem::take(&mut self.switcher.conditions);
         let speeds = self.now.state.v.iter();
         let fastest = speeds.fold(0.0_f64, |fastest, v| fastest.max(v.value().abs()));
+        let sides = self.now.mode.clone();
         self.take_sides(|_, b, guard| {
+            // One that depends on the side of another may have been on the other side on the way.
             if guard == before[b] {
-                return None;
+                return Some(sides.branch(b));
             }
             let size = before[b].abs().max(fastest);
             let vanishes = guard.abs() <= rounding::<T>(ROUNDING) * size;

@@ -44,6 +44,9 @@ const IDLE: f64 = 1e6;
 /// as shows in how it changes with the state, when that changes by so much, relative.
 const SHAKE: f64 = 1e-8;
 
+/// A condition jumps if it changes by more than this, relative, with the sides of others.
+const JUMP: f64 = 1e-6;
+
 /// A guard that may be rounding.
 #[derive(Clone, Debug)]
 pub(super) struct Doubt {
@@ -68,6 +71,7 @@ impl<T: Scalar> Decider<T> {
     ) -> Result<bool, EvaluationError> {
         self.posed.clone_from(mode);
         self.forks = false;
+        self.take_sides_that_follow(dynamics, here);
         if !mode.has_incipient_slip() {
             return self.examine_posed(dynamics, table, here);
         }
@@ -89,6 +93,52 @@ impl<T: Scalar> Decider<T> {
         }
         self.violated = violated;
         Ok(false)
+    }
+
+    /// Puts branches on their sides whose conditions jump with the sides that the candidate has of others: |u| where u = if(c, 1, −1) changes with c.
+    fn take_sides_that_follow(&mut self, dynamics: &mut Dynamics<T>, here: SwitchContext<'_, T>) {
+        let d = dynamics.description();
+        let is_asked = |b: usize| here.facts.balanced[b] || d.branches[b].after_solve;
+        if self.posed.branches == here.present.branches || (0..d.branches.len()).all(is_asked) {
+            return;
+        }
+        let before = self.conditions(dynamics, here, here.present);
+        for _ in 0..d.branches.len() {
+            let after = self.conditions(dynamics, here, &self.posed);
+            let mut settled = true;
+            for b in (0..d.branches.len()).filter(|&b| !is_asked(b)) {
+                let jumps =
+                    (after[b] - before[b]).abs() > JUMP * (after[b].abs() + before[b].abs());
+                let side = after[b] >= 0.0;
+                if jumps && side != self.posed.branch(b) {
+                    self.posed.set_branch(b, side);
+                    settled = false;
+                }
+            }
+            if settled {
+                return;
+            }
+        }
+    }
+
+    /// The conditions of all branches at the moment, on the sides that a mode has.
+    fn conditions(
+        &self,
+        dynamics: &mut Dynamics<T>,
+        here: SwitchContext<'_, T>,
+        mode: &Mode,
+    ) -> Vec<f64> {
+        let EvaluationPoint { t, q, v, .. } = here.moment;
+        dynamics.set_mode(mode);
+        dynamics.set_extra_needs(&self.rows);
+        dynamics.tape(t, q, v);
+        let branches = dynamics.description().branches.iter();
+        branches
+            .map(|branch| match branch.after_solve {
+                true => 0.0,
+                false => dynamics.motion(branch.guard).value(),
+            })
+            .collect()
     }
 
     /// The same for the mode that is posed, with the directions in which slips begin.

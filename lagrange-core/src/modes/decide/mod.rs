@@ -218,7 +218,7 @@ impl<T: Scalar> Decider<T> {
         }
         let outcome = self.pivot(dynamics, table, here);
         let found = matches!(outcome, Ok(true));
-        if found && !is_loose(&self.decision.zeros, dynamics.description()) {
+        if found && !is_loose(&self.decision.zeros, &self.best, dynamics.description()) {
             return Ok(true);
         }
         // What pivoting does not find is among all of them.
@@ -493,7 +493,7 @@ impl<T: Scalar> Decider<T> {
             let outcome = self.examine(dynamics, table, here, mode);
             // Another than the best leaves its own series behind.
             self.decision.expanded &= best.is_none();
-            let loose = is_loose(&self.zeros, dynamics.description());
+            let loose = is_loose(&self.zeros, &self.posed, dynamics.description());
             match outcome {
                 Ok(true) if best.is_none_or(|found| found.loose && !loose) => {
                     let sticks = sticks(mode);
@@ -606,11 +606,12 @@ struct Found {
 }
 
 /// Whether, by what stays zero in a mode, a contact is open that nothing lifts: others carry its share of the load, as they need not; or a friction slips
-/// in no direction, because others hold what it rubs on.
-fn is_loose(zeros: &[(Guard, usize)], d: &Description) -> bool {
+/// in no direction, because others hold what it rubs on; or a condition stays at its border without what is declared for equality.
+fn is_loose(zeros: &[(Guard, usize)], mode: &Mode, d: &Description) -> bool {
     let stays = |guard| match guard {
         Guard::Gap(_) => true,
         Guard::Slip(f) => d.frictions[f].components > 1,
+        Guard::Branch(b) => !mode.branch(b),
         _ => false,
     };
     let mut zeros = zeros.iter();
