@@ -41,6 +41,30 @@ pub fn find_root<R>(c: &[f64], mut judge: impl FnMut(Root) -> ControlFlow<R>) ->
     visit_roots(c, &mut judge).break_value()
 }
 
+/// The same up to `end` only: coefficients of a step that goes on beyond may be so large that their rounding hides what is before.
+pub fn find_root_until<R>(
+    c: &[f64],
+    end: f64,
+    mut judge: impl FnMut(Root) -> ControlFlow<R>,
+) -> Option<R> {
+    if end >= 1.0 {
+        return find_root(c, judge);
+    }
+    let mut part: Coefficients = [0.0; MAX_DEGREE + 1];
+    let mut power = 1.0;
+    for (part, c) in part.iter_mut().zip(c) {
+        *part = c * power;
+        power *= end;
+    }
+    find_root(&part[..c.len()], |root| {
+        judge(Root {
+            s: root.s * end,
+            width: root.width * end,
+            ..root
+        })
+    })
+}
+
 /// Where Σ cₖ sᵏ turns in (0, 1], ascending, into `out`.
 ///
 /// # Panics

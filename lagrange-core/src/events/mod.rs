@@ -15,7 +15,7 @@ mod root_filter;
 mod tests;
 
 pub use bernstein::MAX_DEGREE;
-pub use isolate::{clearance, deflate, dip, find_root, roots, turns};
+pub use isolate::{clearance, deflate, dip, find_root, find_root_until, roots, turns};
 pub use root_filter::keeps_its_sign;
 
 /// Which way a guard passes zero.

@@ -98,9 +98,9 @@ impl<T: Scalar> Run<T> {
         if located == 0.0 && jumps > VANISHES {
             return None;
         }
-        let interpolated = self.locator.polynomials.are_sampled();
+        let sharpened = self.locator.polynomials.are_sharpened();
         let slope = match slope {
-            Some(slope) if !interpolated && !matches!(guard, Guard::Composite(_)) => slope,
+            Some(slope) if !sharpened && !matches!(guard, Guard::Composite(_)) => slope,
             _ => slope_there(values?, apart).value(),
         };
         let way = if located > 0.0 { located } else { APART };

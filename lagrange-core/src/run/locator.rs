@@ -7,7 +7,7 @@ use super::region::is_edge_in_flight;
 use super::spatial_slip::Rest;
 use super::watches::{RESOLUTION, leading};
 use crate::arithmetic::{Scalar, epsilon};
-use crate::events::{Direction, deflate, find_root};
+use crate::events::{Direction, deflate, find_root_until};
 use crate::integrate::{polynomial_derivative as slope, polynomial_value as value};
 use crate::mode::Mode;
 use crate::modes::composite::CompositeGuard;
@@ -62,6 +62,9 @@ pub(super) struct Locator<T> {
     pub(super) mark_times: Vec<f64>,
     pub(super) marks: Vec<(usize, f64)>,
 }
+
+/// Within this part of the step guards are looked at once more.
+const EARLY: f64 = 0.1;
 
 impl<T: Scalar> Locator<T> {
     pub(super) fn new(d: &Description, settings: &Settings, mode: &Mode) -> Self {
@@ -174,16 +177,12 @@ impl<T: Scalar> Run<T> {
     /// Finds what happens first within the step.
     pub(super) fn first_hit(&mut self) -> Hit {
         self.note_edges_ahead();
-        self.locator.falls.clear();
-        let mut first = f64::INFINITY;
-        let mut falls = core::mem::take(&mut self.locator.falls);
-        for (guard, curve) in self.locator.polynomials.in_question() {
-            if let Some((s, width)) = self.fall(guard, curve) {
-                falls.push((guard, s, width));
-                first = first.min(s + width);
-            }
+        let mut first = self.list_falls(1.0);
+        let of_series = !self.locator.polynomials.are_sharpened();
+        if of_series && first > 0.0 && first < EARLY {
+            // Taylor coefficients of a step that goes on far beyond may be so large that their rounding hides what is earlier still.
+            first = self.list_falls(2.0 * first);
         }
-        self.locator.falls = falls;
         // Roots whose enclosures overlap with that of the earliest cannot be told apart from it, nor can those at a
         // distance that time does not resolve.
         let h = self.stepper.step.h.value();
@@ -216,8 +215,23 @@ impl<T: Scalar> Run<T> {
         }
     }
 
-    /// Where a guard of the mode falls through zero: (part of the step, half width of the enclosure).
-    fn fall(&self, guard: Guard, curve: &[f64]) -> Option<(f64, f64)> {
+    /// Lists where guards of the mode fall up to part `until` of the step. The end of the first enclosure.
+    fn list_falls(&mut self, until: f64) -> f64 {
+        let mut falls = core::mem::take(&mut self.locator.falls);
+        falls.clear();
+        let mut first = f64::INFINITY;
+        for (guard, curve) in self.locator.polynomials.in_question() {
+            if let Some((s, width)) = self.fall(guard, curve, until) {
+                falls.push((guard, s, width));
+                first = first.min(s + width);
+            }
+        }
+        self.locator.falls = falls;
+        first
+    }
+
+    /// Where a guard of the mode falls through zero up to part `until` of the step: (part of the step, half width of the enclosure).
+    fn fall(&self, guard: Guard, curve: &[f64], until: f64) -> Option<(f64, f64)> {
         if self.stays_at_edge(guard, curve) {
             return None;
         }
@@ -239,7 +253,7 @@ impl<T: Scalar> Run<T> {
         {
             return Some((0.0, 0.0));
         }
-        let root = find_root(curve, |root| {
+        let root = find_root_until(curve, until, |root| {
             let falls = root.direction == Direction::Falling && !root.grazing;
             match falls && !self.is_held_at(guard, root.s) && self.within_region(guard, root.s) {
                 true => Break(root),

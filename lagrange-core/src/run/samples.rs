@@ -5,7 +5,10 @@
 //! gap above a table that shakes does not: where the interpolation is off between its samples the step is made shorter.
 //! Roots of the interpolation are then moved to where the guard vanishes on the dense output.
 
+use super::guard_polynomials::Located;
 use super::hit::Hit;
+use super::instant::nearest;
+use super::taylor_step::SHARPENED;
 use super::{Run, rest_under_load};
 use crate::arithmetic::Scalar;
 use crate::dynamics::EvaluationError;
@@ -21,11 +24,14 @@ const WITHIN: [f64; 1] = [0.4];
 /// Step sizes change by these factors at most.
 const FACTORS: [f64; 2] = [0.1, 5.0];
 
-/// A root of a guard that was sampled.
+/// Roots of a polynomial and of its part are the same if they are no farther apart, as a part of the step.
+const SAME: f64 = 1e-3;
+
+/// A root of a guard, sharpened.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct SampledRoot {
+pub(super) struct SharpRoot {
     guard: Guard,
-    /// The root of its interpolation.
+    /// The root of its polynomial.
     interpolated: f64,
     /// The root of the guard on the dense output.
     exact: f64,
@@ -86,8 +92,9 @@ impl<T: Scalar> Run<T> {
         }
     }
 
-    /// Finds where the guards vanish on the dense output, next to the roots of their interpolations.
-    pub(super) fn sharpen_roots(&mut self) {
+    /// Finds where the guards vanish on the dense output, next to the roots of their polynomials: no farther away than `within` of the step, for of several
+    /// roots at a corner another may be found.
+    pub(super) fn sharpen_roots(&mut self, within: f64) {
         self.locator.polynomials.roots.clear();
         let mut all = RootList::new();
         let mut index = 0;
@@ -95,9 +102,10 @@ impl<T: Scalar> Run<T> {
             roots(self.judged(guard, curve).unwrap_or_default(), &mut all);
             for root in all.iter() {
                 let exact = self.sharpened(index, root);
+                let exact = exact.filter(|exact| (exact - root.s).abs() <= within);
                 // What rounding does to the coefficients it does to the samples as well.
                 let width = (0.5 * root.width).max(2.0 * f64::EPSILON * root.s);
-                self.locator.polynomials.roots.push(SampledRoot {
+                self.locator.polynomials.roots.push(SharpRoot {
                     guard,
                     interpolated: root.s,
                     exact: exact.unwrap_or(root.s),
@@ -105,6 +113,36 @@ impl<T: Scalar> Run<T> {
                 });
             }
             index += 1;
+        }
+    }
+
+    /// Where a mark is passed, near the root `s` of its Taylor polynomial; of interpolations that is known.
+    pub(super) fn sharpened_mark(&mut self, mark: usize, s: f64) -> f64 {
+        let curves = &self.locator.polynomials;
+        let mut known = curves.roots.iter();
+        if s == 0.0 || known.any(|root| matches!(root.guard, Guard::Mark(..))) {
+            return s;
+        }
+        let terms = 0..self.description().marks[mark].terms.len();
+        let nearest = nearest(terms, s, |k| curves.mark_term(mark, k));
+        let Some((k, rate)) = nearest else {
+            return s;
+        };
+        let root = Root {
+            s,
+            width: 0.0,
+            direction: match rate > 0.0 {
+                true => Direction::Rising,
+                false => Direction::Falling,
+            },
+            grazing: false,
+        };
+        let index = curves.mark_terms(mark).nth(k);
+        let exact = index.and_then(|index| self.sharpened(index, &root));
+        self.now.valued = false;
+        match exact {
+            Some(exact) if (exact - s).abs() <= SHARPENED => exact,
+            _ => s,
         }
     }
 
@@ -181,10 +219,14 @@ impl<T: Scalar> Run<T> {
 
     /// Whether what ends the step, whose values `dynamics` holds there, is no zero of the guard but of its interpolation only.
     pub(super) fn misses_its_root(&mut self, hit: &Hit) -> bool {
+        self.is_off_root(hit, Located::ByInterpolation(self.settings.tolerance))
+    }
+
+    /// The same to what is located in this way.
+    pub(super) fn is_off_root(&mut self, hit: &Hit, located: Located) -> bool {
         self.dynamics.report_value();
         let (curves, mode) = (&self.locator.polynomials, &self.now.mode);
-        let tolerance = self.settings.tolerance;
-        let vanishes = |index| curves.vanishes(index, mode, &self.dynamics, tolerance);
+        let vanishes = |index| curves.vanishes(index, mode, &self.dynamics, located);
         match *hit {
             Hit::Nothing | Hit::Turned(_) => false,
             Hit::Guards(_) => {
@@ -206,14 +248,8 @@ impl<T: Scalar> Run<T> {
             self.evaluate_end(s)?;
             self.dynamics.report_value();
             let curves = &self.locator.polynomials;
-            let vanishes = |index| {
-                curves.vanishes(
-                    index,
-                    &self.now.mode,
-                    &self.dynamics,
-                    self.settings.tolerance,
-                )
-            };
+            let located = Located::ByInterpolation(self.settings.tolerance);
+            let vanishes = |index| curves.vanishes(index, &self.now.mode, &self.dynamics, located);
             misses |= !curves.mark_terms(mark).any(vanishes);
         }
         if !marks.is_empty() {
@@ -231,9 +267,10 @@ impl<T: Scalar> Run<T> {
             .roots
             .iter()
             .filter(|known| known.guard == guard);
-        let distance = |known: &&SampledRoot| (known.interpolated - root.s).abs();
+        let distance = |known: &&SharpRoot| (known.interpolated - root.s).abs();
         let nearest = of_guard.min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        nearest.map_or((root.s, 0.5 * root.width), |known| {
+        let same = nearest.filter(|known| distance(known) <= SAME);
+        same.map_or((root.s, 0.5 * root.width), |known| {
             (known.exact, known.width)
         })
     }
@@ -242,7 +279,7 @@ impl<T: Scalar> Run<T> {
     /// have been found.
     pub(super) fn interpolated(&self, guard: Guard, s: f64) -> f64 {
         let roots = self.locator.polynomials.roots.iter();
-        let distance = |known: &&SampledRoot| (known.exact - s).abs();
+        let distance = |known: &&SharpRoot| (known.exact - s).abs();
         let of_guard = roots.filter(|known| known.guard == guard);
         let nearest = of_guard.min_by(|a, b| distance(a).total_cmp(&distance(b)));
         let moved = nearest.map_or(0.0, |known| known.interpolated - known.exact);

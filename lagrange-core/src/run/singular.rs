@@ -247,7 +247,7 @@ impl<T: Scalar> Run<T> {
         let (h, degree) = best?;
         self.write_polynomial(h.min(self.end - self.now.t.value()), degree);
         if self.samples_hold() {
-            self.sharpen_roots();
+            self.sharpen_roots(1.0);
         } else {
             self.locator.polynomials.take_series(
                 &self.dynamics,

@@ -1,6 +1,7 @@
 //! A step by Taylor series: polynomials of the motion and of all guards, checked against an independent evaluation.
 
 use super::Run;
+use super::guard_polynomials::Located;
 use super::hit::Hit;
 use super::singular::{LEAST_DEGREE, MOST_RETREATS, RETREAT, UNDECIDED};
 use super::stepping::{JUST_BEFORE, Stepper};
@@ -34,6 +35,9 @@ const SHORT: f64 = 1e-3;
 
 /// So many units of rounding are what positions are off by at least.
 const ULPS: f64 = 16.0;
+
+/// Roots of Taylor polynomials are sharpened within this part of the step.
+pub(super) const SHARPENED: f64 = 1e-3;
 
 /// Steps are shorter where directions of slips are off by more than this share.
 const ASTRAY: f64 = 1e-2;
@@ -170,8 +174,9 @@ impl<T: Scalar> Run<T> {
                     });
                     if looked != end {
                         self.state_at_end(end);
+                        return Ok(hit);
                     }
-                    return Ok(hit);
+                    return Ok(self.sharpened_hit(hit));
                 }
                 Verdict::Redo { h: smaller } => {
                     self.recorder.trajectory.work.rejected += 1;
@@ -194,6 +199,29 @@ impl<T: Scalar> Run<T> {
                 }
             }
         }
+    }
+
+    /// What ends the step, at the root of the guard itself where that of its polynomial is farther from it than rounding: the motion may be a polynomial and
+    /// the surface of a table that shakes not. The state there is in `scratch`, evaluated as that at the end of `hit` was.
+    fn sharpened_hit(&mut self, hit: Hit) -> Hit {
+        if !self.is_off_root(&hit, Located::Exactly) {
+            return hit;
+        }
+        self.sharpen_roots(SHARPENED);
+        let sharper = self.first_hit();
+        let same = matches!(
+            (&hit, &sharper),
+            (Hit::Guards(_), Hit::Guards(_)) | (Hit::Stop(..), Hit::Stop(..))
+        );
+        let near = (sharper.end() - hit.end()).abs() <= SHARPENED;
+        if same && near && self.evaluate_end(sharper.end()).is_ok() {
+            return sharper;
+        }
+        self.locator.polynomials.roots.clear();
+        let hit = self.first_hit();
+        // It could be evaluated before.
+        _ = self.evaluate_end(hit.end());
+        hit
     }
 
     /// The step that the motion allows by the series at hand, and the order up to which that is used.

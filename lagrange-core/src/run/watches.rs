@@ -5,7 +5,7 @@ use super::instant::nearest;
 use crate::arithmetic::{Scalar, epsilon};
 use crate::dynamics::OutputMask;
 use crate::error::Error;
-use crate::events::{Direction, RootList, find_root, roots};
+use crate::events::{Direction, find_root_until};
 use crate::integrate::{polynomial_derivative as slope, polynomial_value as value};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
@@ -21,6 +21,9 @@ const LATER: f64 = 64.0;
 
 /// So many units of rounding are between the time of a root and of the same one when the next step begins.
 const UNITS_OF_TIME: f64 = 64.0;
+
+/// Roots of interpolations are looked for so much farther than they may be when they are sharpened.
+const FARTHER: f64 = 1.25;
 
 /// Parts of the way to a mark at which its forces are looked for.
 const HERE_OR_BESIDE: [f64; 4] = [1.0, 0.999, 0.9, 0.5];
@@ -97,9 +100,7 @@ impl<T: Scalar> Run<T> {
         for &i in &curves.marks {
             let watch = &d.marks[i];
             if watch.zeros {
-                let mut all = RootList::new();
                 let curve = curves.mark_term(i, 0);
-                roots(curve, &mut all);
                 let below = self.locator.mark_below[i][0];
                 let known = self.known_zero(curve, below, Some((i, 0)), resolution);
                 let begins_below = side_of_start(curve, resolution);
@@ -111,14 +112,15 @@ impl<T: Scalar> Run<T> {
                 if passes {
                     list.push((i, 0.0));
                 }
-                let roots = all.iter();
-                let roots = roots.skip_while(|root| known.is_some_and(|until| root.s <= until));
-                let places = roots.map(|root| self.place(Guard::Mark(i, 0), root).0);
-                list.extend(
-                    places
-                        .filter(|s| *s <= last && self.now.mode.satisfies(watch.conditions))
-                        .map(|s| (i, s.min(end))),
-                );
+                let taken = self.now.mode.satisfies(watch.conditions);
+                find_root_until(curve, FARTHER * last, |root| {
+                    let (s, _) = self.place(Guard::Mark(i, 0), &root);
+                    let is_known = known.is_some_and(|until| root.s <= until);
+                    if taken && !is_known && s <= last {
+                        list.push((i, s.min(end)));
+                    }
+                    Continue::<(), ()>(())
+                });
             } else {
                 let below = &self.locator.mark_below[i];
                 let term = |k: usize| {
@@ -172,7 +174,7 @@ impl<T: Scalar> Run<T> {
             if was_below && known.is_none() && begins_true(curve, self.resolution_of_time()) {
                 consider(0.0);
             }
-            find_root(curve, |root| {
+            find_root_until(curve, FARTHER * end, |root| {
                 let (s, _) = self.place(guard, &root);
                 if s > end {
                     return Break(());
@@ -259,6 +261,7 @@ impl<T: Scalar> Run<T> {
         self.marks_until(end, &mut marks);
         let resolution = self.resolution_of_time() * self.stepper.step.h.value();
         for &(mark, s) in &marks {
+            let s = self.sharpened_mark(mark, s);
             let s = self.exact_mark(mark, s);
             let time = self.stepper.step.time(s);
             // Where a guard jumps steps are as short as time resolves, and rounding may put a term back to the side from which it has come; each of both
@@ -341,7 +344,11 @@ fn is_zero(curve: &[f64], s: f64, now: f64, resolution: f64) -> bool {
     let size = all.min(LATER * (first.sum::<f64>() + now.abs()));
     let steepest = curve.len() as f64 * all;
     let far = now.abs() > (RESOLUTION * size).max(resolution * steepest);
-    !far && now.abs() <= (RESOLUTION * size).max(resolution * slope(curve, s).abs())
+    // Close to a pole a curve is steep and has no zero: of c/x it is c₀ c₂ = c₁².
+    let has_pole = s == 0.0
+        && matches!(*curve, [start, rate, bend, ..] if (start * bend).abs() >= 0.5 * rate * rate);
+    let steep = if has_pole { 0.0 } else { slope(curve, s).abs() };
+    !far && now.abs() <= (RESOLUTION * size).max(resolution * steep)
 }
 
 /// The first coefficient that can be told from 0 by numbers this much smaller than all together.

@@ -42,7 +42,7 @@ fn work_on_the_wheel_does_not_grow() {
         1e-9,
         &expect![[r#"
             method        steps  rejected  evaluations  series  factorizations  projections
-            taylor            9         0           15      10               0            0
+            taylor            9         0           21      10               0            0
             dop853           22         2          654       4               0            0
             dopri5           96         0         1660       4               0            0
             verner98         17         0          568       4               0            0

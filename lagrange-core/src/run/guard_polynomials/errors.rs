@@ -1,12 +1,13 @@
 //! How far the polynomials of the guards are off in a step, and how far they may be.
 
 use super::GuardPolynomials;
-use crate::arithmetic::{self, Scalar};
+use crate::arithmetic::{self, Scalar, epsilon};
 use crate::dynamics::Dynamics;
 use crate::integrate::polynomial_value as at;
 use crate::integrate::taylor::worse;
 use crate::mode::Mode;
 use crate::modes::guard::Guard;
+use crate::run::touching::UNITS_OF_TIME;
 
 /// A guard on the other side of zero than its polynomial is off by more than rounding explains: this much more is counted.
 const OTHER_SIDE: f64 = 1e3;
@@ -147,10 +148,31 @@ impl GuardPolynomials {
             GuardError {
                 error,
                 allowed: allowed * size(value, c).max(least),
-                rounding: self.rounding(error, curve.guard, dynamics).max(of_forces),
+                rounding: self
+                    .rounding(error, curve.guard, dynamics)
+                    .max(of_forces)
+                    .max(self.change_in_no_time(curve.guard, c, value, dynamics)),
                 other_side: !located && (found < 0.0) != (value < 0.0),
             }
         })
+    }
+
+    /// What a stop or mark with this curve and value changes by within the time that rounding resolves, as long as it keeps its sign: close to a pole, 1/x,
+    /// that is more than what is allowed.
+    #[inline]
+    fn change_in_no_time<T: Scalar>(
+        &self,
+        guard: Guard,
+        curve: &[f64],
+        value: f64,
+        dynamics: &Dynamics<T>,
+    ) -> f64 {
+        let watched = matches!(guard, Guard::Stop(..) | Guard::Mark(..));
+        if !watched || (curve[0] < 0.0) != (value < 0.0) {
+            return 0.0;
+        }
+        let time = dynamics.time_and_state()[0].value();
+        UNITS_OF_TIME * epsilon::<T>() * time.abs() / self.length * curve[1].abs()
     }
 
     /// What rounding makes of a guard at the last value of `dynamics`, to be told from an `error`. Gaps and slips are differences of positions and of

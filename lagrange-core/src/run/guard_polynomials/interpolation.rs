@@ -63,6 +63,15 @@ impl Interpolation {
     }
 }
 
+/// How well the zero of a guard is located.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::run) enum Located {
+    /// To what its interpolation may be off at this tolerance.
+    ByInterpolation(f64),
+    /// To rounding.
+    Exactly,
+}
+
 impl GuardPolynomials {
     /// Samples the guards along the dense output of a step and interpolates them.
     ///
@@ -147,17 +156,22 @@ impl GuardPolynomials {
         worst
     }
 
-    /// Whether guard number `index` is zero at the last value of `dynamics`, to what its interpolation may be off. Those of undetermined forces are
+    /// Whether guard number `index` is zero at the last value of `dynamics`, to what it is located to. Those of undetermined forces are
     /// corrected by themselves.
     pub(in crate::run) fn vanishes<T: Scalar>(
         &self,
         index: usize,
         mode: &Mode,
         dynamics: &Dynamics<T>,
-        tolerance: f64,
+        located: Located,
     ) -> bool {
         let guard = self.list[index].guard;
-        let share = allowance::<T>(guard, tolerance, true).max(INTERPOLATION);
+        let share = match located {
+            Located::ByInterpolation(tolerance) => {
+                allowance::<T>(guard, tolerance, true).max(INTERPOLATION)
+            }
+            Located::Exactly => allowance::<T>(guard, 0.0, true),
+        };
         let (c, value) = (self.curve(index), self.value(index, mode, dynamics));
         let allowed = share * size(value, c) + self.rounding(value.abs(), guard, dynamics);
         matches!(guard, Guard::Composite(_)) || value.abs() <= allowed

@@ -5,7 +5,7 @@
 mod errors;
 mod interpolation;
 
-use super::samples::SampledRoot;
+use super::samples::SharpRoot;
 use crate::arithmetic::Scalar;
 use crate::arithmetic::quad::{Quad, QuadBody, side_by_side};
 use crate::dynamics::Dynamics;
@@ -19,6 +19,7 @@ use crate::modes::reading::Reading;
 use crate::system::Description;
 use errors::ROUNDING;
 use interpolation::Interpolation;
+pub(super) use interpolation::Located;
 
 /// Coefficients this much smaller than all together can still be told from 0.
 pub(super) const CLEAR: f64 = 1e-10;
@@ -52,6 +53,8 @@ pub(super) struct GuardPolynomials {
     /// Coefficients of all polynomials, one after the other, `width` of each.
     coefficients: Vec<f64>,
     width: usize,
+    /// Length of the step, s.
+    length: f64,
     /// Per contact: what its gap changes by when the coordinates change by their sizes, and 1 at least.
     pub(super) extents: Vec<f64>,
     /// The stops and marks that take part.
@@ -62,8 +65,8 @@ pub(super) struct GuardPolynomials {
     first_mark: Vec<usize>,
     watches: Vec<Guard>,
     interpolation: Interpolation,
-    /// Roots of guards that were sampled.
-    pub(super) roots: Vec<SampledRoot>,
+    /// Roots that were sharpened.
+    pub(super) roots: Vec<SharpRoot>,
 }
 
 /// Takes guards from the series that the dynamics hold, for four coefficients at a time.
@@ -240,13 +243,14 @@ impl GuardPolynomials {
     ) {
         self.shape(powers.len());
         self.roots.clear();
+        self.length = powers.get(1).copied().unwrap_or(0.0);
         if !self.list.is_empty() {
             side_by_side::<FromSeries, _>((self, dynamics, mode, powers));
         }
     }
 
-    /// Whether they are interpolations, if one of them has a root.
-    pub(super) fn are_sampled(&self) -> bool {
+    /// Whether roots were sharpened: of interpolations all, of Taylor polynomials where they are less exact than rounding.
+    pub(super) fn are_sharpened(&self) -> bool {
         !self.roots.is_empty()
     }
 

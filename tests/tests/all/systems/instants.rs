@@ -1,6 +1,6 @@
 //! What shares one instant: stops and impacts, the log's order, the end of a run, and roots that only touch.
 
-use super::state;
+use super::{PI, state};
 use lagrange_core::prelude::*;
 use lagrange_tests::{
     METHODS, Random, TOLERANCES, agree, all_agree, methods_at, root, run, run_by, times, words,
@@ -354,6 +354,55 @@ fn a_mark_where_a_force_changes_is_passed_once() {
             );
             for event in run.events() {
                 agree(&what, event.time, time, 1e-12);
+            }
+        }
+    }
+}
+
+/// A body in free flight past marks that are given by time alone, and a ball above a table that shakes.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = 10 * y,
+    mark(beat: sin(rate * t + phase) <= 0),
+    contact(table: y >= 0.05 * sin(rate * t + phase), restitution = 0.9),
+    start(go: y = 1, der(x) = 1),
+)]
+struct Beats {
+    rate: f64,
+    phase: f64,
+}
+
+/// The motion between impacts is a polynomial and the guards are not: their zeros are exact all the same, whatever the tolerance.
+#[test]
+fn zeros_of_guards_are_exact_where_the_motion_is_simpler() {
+    let mut random = Random::new(565);
+    for _ in 0..10 {
+        let beats = Beats {
+            rate: random.between(1.0, 9.0),
+            phase: random.between(0.1, 3.0),
+        };
+        let pairs = methods_at([Method::Auto, Method::DormandPrince853], TOLERANCES);
+        for pair in pairs {
+            let what = format!("{beats:?} by {pair:?}");
+            let run = run_by(&beats, pair, state(&[0.0, 1.0], &[1.0, 0.0]), 5.0);
+            let beaten = times(&run, "beat", "mark");
+            assert!(!beaten.is_empty(), "{what}");
+            for (k, time) in beaten.iter().enumerate() {
+                let expected = ((2 * k + 1) as f64 * PI - beats.phase) / beats.rate;
+                assert!(
+                    (time - expected).abs() < 1e-14 * time.max(1.0),
+                    "{what}: {time} {expected}"
+                );
+            }
+            for hit in run
+                .events()
+                .iter()
+                .filter(|event| event.kind == EventKind::Impact)
+            {
+                let gap = hit.state_after.q[1] - 0.05 * (beats.rate * hit.time + beats.phase).sin();
+                assert!(gap.abs() < 1e-12, "{what}: {gap}");
             }
         }
     }

@@ -101,3 +101,65 @@ fn marks_at_corners_and_jumps_are_passed_once() {
         }
     }
 }
+
+/// A rotor that is marked where a tangent, a cotangent or a fraction is large.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(theta),
+    kinetic = der(theta)^2 / 2,
+    mark(steep: tan(theta) >= 3),
+    mark(flat: 1 / tan(theta) >= 3),
+    mark(near: 1 / (theta - place) >= 2),
+)]
+struct Poles {
+    place: f64,
+}
+
+/// Each mark becomes true at its pole, or before it; steps become short there, and long again behind it.
+#[test]
+fn marks_with_poles_are_passed() {
+    let mut random = Random::new(566);
+    for _ in 0..4 {
+        let (from, place) = (random.between(-1.4, -0.5), random.between(0.2, 0.9));
+        for pair in methods_at(METHODS, TOLERANCES) {
+            let what = format!("{from} {place} by {pair:?}");
+            let run = run_by(&Poles { place }, pair, state(&[from], &[1.0]), 5.0);
+            assert!(
+                run.work().steps < 3000,
+                "{what}: {} steps",
+                run.work().steps
+            );
+            for (mark, angle) in [("steep", 3.0_f64.atan()), ("flat", 0.0), ("near", place)] {
+                agree(
+                    format!("{what}: {mark}"),
+                    times(&run, mark, "mark")[0],
+                    angle - from,
+                    1e-11,
+                );
+            }
+        }
+    }
+}
+
+/// Marks with corners beside one another, by the default method: each step ends at a corner of one of them, and may be far too long for the others.
+#[test]
+fn marks_before_what_ends_a_step_are_passed() {
+    let mut random = Random::new(568);
+    for case in 0..60 {
+        let (faster, share) = ([0.0, 0.4][case % 2], random.between(0.02, 0.6));
+        let (from, rate) = (random.between(0.7, 2.0), random.between(1.0, 4.0));
+        for tolerance in TOLERANCES {
+            let pair = ("auto", tolerance);
+            let run = run_by(&Rotor { faster, share }, pair, state(&[from], &[rate]), 8.0);
+            let what = format!("{case} at {tolerance:e}");
+            let corners = ["far", "chord", "root", "size", "larger"];
+            passes_once(
+                &what,
+                &run,
+                &corners,
+                [faster, share, from, rate],
+                tolerance,
+            );
+        }
+    }
+}
