@@ -1,5 +1,5 @@
 //! Loads that vanish together with the force that a friction holds: a body at rest in its guide under a force that keeps its direction inside the friction
-//! cone and changes its sign.
+//! cone and changes its sign, or only touches zero.
 //!
 //! What the friction could hold more, (μN)² − F², has a double zero there, and touches it from above. By the error of its polynomial it falls through zero as
 //! far from there as the root of that. But forces are known to rounding: where load and force are nothing at the same instant, and the cone has room before
@@ -9,11 +9,15 @@ use super::Run;
 use super::touching::UNITS_OF_TIME;
 use crate::arithmetic::{Scalar, epsilon};
 use crate::events::dip;
+use crate::integrate::Integrator;
 use crate::modes::guard::Guard;
 use crate::system::Normal;
 
 /// At these parts of the step before and behind the zero it is looked whether the cone has room, and where loads vanish.
 const BESIDE: [f64; 4] = [1e-1, 1e-2, 1e-4, 1e-6];
+
+/// A motion that hardly moves is known up to this part of a step at least.
+const KNOWN: f64 = 1.25;
 
 /// What is no larger than this beside the forces of the step is nothing.
 const NOTHING: f64 = 1e-12;
@@ -35,9 +39,28 @@ impl Held {
         self.parts().fold(0.0, f64::hypot)
     }
 
+    /// The forces along those of another instant.
+    fn along(&self, other: &Self) -> f64 {
+        let pairs = self.parts().zip(other.parts());
+        pairs.map(|(x, y)| x * y).sum()
+    }
+
     /// (μN)² − F²
     fn room(&self) -> f64 {
         self.limit * self.limit - self.force.iter().map(|force| force * force).sum::<f64>()
+    }
+}
+
+/// Where what has these values at −1, 0 and 1, the first of them positive, is zero, or nearest to it: on a line where it changes its sign, and on a parabola
+/// where it only touches zero.
+fn nearest_zero([before, middle, after]: [f64; 3]) -> f64 {
+    let zero = match after < 0.0 {
+        true => 2.0 * before / (before - after) - 1.0,
+        false => 0.5 * (before - after) / (before - 2.0 * middle + after),
+    };
+    match zero.abs() <= 1.0 {
+        true => zero,
+        false => 0.0,
     }
 }
 
@@ -61,12 +84,15 @@ impl<T: Scalar> Run<T> {
         let mut largest = self.held_at(friction, 0.0)?.size();
         let mut rate = 0.0;
         let mut clear = false;
+        let other = self.stepper.other.as_deref();
+        let stiff = other.is_some_and(Integrator::is_stiff);
         for part in BESIDE {
-            if zero - part < 0.0 || zero + part > known.max(1.0) {
+            if zero - part < 0.0 || zero + part > known.max(KNOWN) {
                 continue;
             }
-            let [before, after] = [zero - part, zero + part].map(|s| self.held_at(friction, s));
-            let (before, after) = (before?, after?);
+            let around = [zero - part, zero, zero + part].map(|s| self.held_at(friction, s));
+            let [before, middle, after] = around;
+            let (before, middle, after) = (before?, middle?, after?);
             if !(before.room() > 0.0 && after.room() > 0.0) {
                 // Farther away something else may happen.
                 if part == BESIDE[0] {
@@ -74,16 +100,16 @@ impl<T: Scalar> Run<T> {
                 }
                 return None;
             }
+            // Steps of a stiff method are made again, and shorter, where an interpolation dips.
+            if stiff && after.along(&before) > 0.0 {
+                return None;
+            }
             // A margin that hides nothing but what is nearer.
             clear |= before.room().min(after.room()) > 8.0 * depth;
             largest = largest.max(before.size()).max(after.size());
             let change = after.parts().zip(before.parts()).map(|(x, y)| x - y);
-            let pairs = change.zip(before.parts());
-            let (along, square) = pairs.fold((0.0, 0.0), |(along, square), (change, before)| {
-                (along + change * before, square + change * change)
-            });
-            rate = square.sqrt() / (2.0 * part);
-            zero += part * (-2.0 * along / square - 1.0);
+            rate = change.fold(0.0, f64::hypot) / (2.0 * part);
+            zero += part * nearest_zero([before, middle, after].map(|held| held.along(&before)));
         }
         let step = &self.stepper.step;
         let (time, h) = (step.time(T::from_f64(zero)).value(), step.h.value());

@@ -119,3 +119,33 @@ fn a_jammed_drawer_stays_jammed_while_its_load_turns() {
         }
     }
 }
+
+/// A load that only touches zero, once in each turn.
+#[test]
+fn a_bead_whose_load_touches_zero_inside_the_cone_stays() {
+    let mut random = Random::new(567);
+    for case in 0..24 {
+        let mu = random.between(0.2, 0.8);
+        let size = random.between(5.0, 30.0);
+        let guide = Guide {
+            slope: mu * [0.0, 0.5, 0.9, -0.97][case % 4],
+            size,
+            rate: [1.0, 2.0, 3.0, random.between(0.5, 4.0)][case / 6],
+            shift: [size, -size][case % 2],
+            mu,
+            share: [1.0, 0.6][case / 2 % 2],
+        };
+        for tolerance in [1e-9, 1e-12] {
+            let effects = Effects::all().without(Guide::HALF);
+            let simulation = Simulation::new(&guide)
+                .effects(effects)
+                .tolerance(tolerance);
+            let run = simulation.run(state(&[0.0; 2], &[0.0; 2]), 0.0..10.0);
+            let run = run.expect("a run");
+            let what = format!("{guide:?} at {tolerance:e}");
+            assert!(words(&run).is_empty(), "{what}: {:?}", words(&run));
+            agree(&what, run.final_state().q[0], 0.0, 1e-12);
+            certified(&what, &run);
+        }
+    }
+}
