@@ -15,6 +15,12 @@ use crate::system::Normal;
 /// A gap that changes by no more than so many tolerances per second where its region begins neither closes nor opens there.
 const ENTERS: f64 = 10.0;
 
+/// A gap whose rate is no larger than this beside the velocities may have no gradient,
+const SLOW: f64 = 1e-4;
+
+/// and has one if that is larger than so many times what errors of positions change it by.
+const DIRECTED: f64 = 8.0;
+
 impl<T: Scalar> Run<T> {
     /// The impact of the contacts whose gaps close, if there is one.
     pub(super) fn hit(&mut self, facts: &mut SwitchFacts) -> Result<bool, Error> {
@@ -22,8 +28,13 @@ impl<T: Scalar> Run<T> {
         self.evaluate_all_rows()?;
         self.measure_gaps();
         self.note_conditions();
-        for c in (0..d.contacts.len()).filter(|&c| !self.now.mode.contacts[c]) {
-            if !facts.arriving[c] {
+        for c in 0..d.contacts.len() {
+            if self.now.mode.contacts[c] || !facts.arriving[c] {
+                continue;
+            }
+            if self.has_no_direction(c) {
+                (facts.touching[c], facts.arriving[c]) = (false, false);
+                facts.located.retain(|guard| *guard != Guard::Gap(c));
                 continue;
             }
             let (rate, size) = self.rate(d.contacts[c].row);
@@ -49,7 +60,10 @@ impl<T: Scalar> Run<T> {
         for c in 0..d.contacts.len() {
             if facts.touching[c] || facts.parting[c] {
                 near.push(c);
-            } else if self.may_touch(c, facts) && self.is_within_rounding(c, off) {
+            } else if self.may_touch(c, facts)
+                && self.is_within_rounding(c, off)
+                && !self.has_no_direction(c)
+            {
                 near.push(c);
                 facts.arriving[c] |= self.approaching(c);
             }
@@ -81,6 +95,32 @@ impl<T: Scalar> Run<T> {
         self.switcher.collider.outcome = outcome;
         accumulated?;
         Ok(true)
+    }
+
+    /// Whether positions are not known well enough to tell in which direction the gap of an open contact changes: that above a floor which is exactly as low
+    /// as a pendulum hangs has no gradient there.
+    fn has_no_direction(&mut self, c: usize) -> bool {
+        let row = self.description().contacts[c].row;
+        let fastest = self.now.state.v.iter();
+        let fastest = fastest.fold(0.0_f64, |fastest, v| fastest.max(v.value().abs()));
+        let (rate, _) = self.rate(row);
+        if rate.abs() > SLOW * fastest {
+            return false;
+        }
+        let mut gradient = core::mem::take(&mut self.switcher.gradient);
+        gradient.clear();
+        let elements = self.description().rows[row].jacobian.iter();
+        gradient.extend(elements.map(|&(_, place)| self.dynamics.motion(place).value()));
+        let error = self.settings.tolerance;
+        let moved = |j: usize, _| T::from_f64(if j % 2 == 1 { -error } else { error });
+        let flat = self.beside(None, T::zero(), moved, |run| {
+            let elements = run.description().rows[row].jacobian.iter();
+            let beside = elements.map(|&(_, place)| run.dynamics.motion(place).value());
+            let mut pairs = gradient.iter().zip(beside);
+            pairs.all(|(here, beside)| here.abs() <= DIRECTED * (here - beside).abs())
+        });
+        self.switcher.gradient = gradient;
+        flat
     }
 
     /// Whether the gap of contact `c` closes at the present state: faster than rounding does.

@@ -28,6 +28,8 @@ pub(super) struct Switcher<T> {
     pub(super) collider: Collider<T>,
     /// Branches that what touches holds at their border.
     pub(super) held: HeldBranches<T>,
+    /// How a gap changes with the coordinates.
+    pub(super) gradient: Vec<f64>,
     /// Guards that the mode up to the switch watches.
     pub(super) watched: Vec<Guard>,
     /// The conditions of branches before an impact.
@@ -61,6 +63,7 @@ impl<T: Scalar> Switcher<T> {
             status: ConstraintStatus::new(d),
             collider: Collider::default(),
             held: HeldBranches::default(),
+            gradient: Vec::with_capacity(d.coordinates.len()),
             watched: Vec::new(),
             conditions: Vec::new(),
             near: Vec::with_capacity(contacts),
@@ -201,6 +204,11 @@ impl<T: Scalar> Run<T> {
             .iter()
             .filter(|g| matches!(g, Guard::Region(_)));
         self.locator.zeros.extend(edges.map(|&edge| (edge, 1)));
+        // A gap that has fallen and is not hit has no gradient.
+        let passes = |guard: &&Guard| matches!(**guard, Guard::Gap(c) if !hit && !facts.touching[c] && !facts.parting[c]);
+        let grazing = self.locator.fallen.iter().filter(passes);
+        let grazing = grazing.map(|&gap| (gap, guard::LENGTH));
+        self.locator.zeros.extend(grazing);
         self.switcher.since = self.now.t.value();
         self.set_mode_decided();
         self.refuse_derivatives_of_directions()?;

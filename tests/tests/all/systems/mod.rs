@@ -1,5 +1,6 @@
 //! Systems that are not in the library, declared here, each with something independent to compare with.
 
+mod acute_groove;
 mod aligned;
 mod arrivals;
 mod at_limit;
@@ -29,6 +30,7 @@ mod cuts;
 mod damped;
 mod dead_points;
 mod dependent;
+mod dependent_conditions;
 mod die;
 mod drag;
 mod fading;
@@ -38,6 +40,8 @@ mod far;
 mod far_origins;
 mod feasible;
 mod four_feet;
+mod geared_discs;
+mod grazes;
 mod groove;
 mod handovers;
 mod held;
