@@ -30,6 +30,15 @@ pub struct HeldBranches<T> {
     v: Vec<T>,
 }
 
+/// The conditions of all branches by the numbers that `dynamics` holds; 0 for those that are told with the outputs only.
+pub fn conditions<T: Scalar>(dynamics: &Dynamics<T>) -> impl Iterator<Item = f64> + '_ {
+    let branches = dynamics.description().branches.iter();
+    branches.map(|branch| match branch.after_solve {
+        true => 0.0,
+        false => dynamics.motion(branch.guard).value(),
+    })
+}
+
 impl<T: Scalar> HeldBranches<T> {
     /// Per branch.
     pub fn held(&self) -> &[bool] {

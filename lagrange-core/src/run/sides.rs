@@ -8,6 +8,7 @@ use crate::arithmetic::{Scalar, rounding};
 use crate::mode::FrictionMode;
 use crate::modes::facts::SwitchFacts;
 use crate::modes::guard::Guard;
+use crate::modes::held::conditions;
 
 /// What is left of a condition after an impact is rounding, beside what it was or the largest speed.
 const ROUNDING: f64 = 1e-12;
@@ -44,11 +45,7 @@ impl<T: Scalar> Run<T> {
         if !self.has_sides() {
             return;
         }
-        let branches = self.description().branches.iter();
-        let conditions = branches.map(|branch| match branch.after_solve {
-            true => 0.0,
-            false => self.dynamics.motion(branch.guard).value(),
-        });
+        let conditions = conditions(&self.dynamics);
         self.switcher.conditions.extend(conditions);
     }
 

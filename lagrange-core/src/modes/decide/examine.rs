@@ -10,6 +10,7 @@ use crate::mode::{FrictionMode, Mode};
 use crate::modes::composite::CompositeGuard;
 use crate::modes::facts::{EvaluationPoint, SwitchContext};
 use crate::modes::guard::{self, Guard};
+use crate::modes::held::conditions;
 use crate::modes::reading::Reading;
 use crate::modes::table::Table;
 use crate::system::ValueRef;
@@ -132,13 +133,7 @@ impl<T: Scalar> Decider<T> {
         dynamics.set_mode(mode);
         dynamics.set_extra_needs(&self.rows);
         dynamics.tape(t, q, v);
-        let branches = dynamics.description().branches.iter();
-        branches
-            .map(|branch| match branch.after_solve {
-                true => 0.0,
-                false => dynamics.motion(branch.guard).value(),
-            })
-            .collect()
+        conditions(dynamics).collect()
     }
 
     /// The same for the mode that is posed, with the directions in which slips begin.

@@ -14,6 +14,9 @@ use crate::system::{Normal, Restitution, ValueRef};
 /// A coordinate that by its own inertia would move so many times as far as what constraints tie it to has hardly any.
 const HARDLY: f64 = 1e3;
 
+/// An inertia below this share of the largest is none to speak of.
+const NO_INERTIA: f64 = 1e-12;
+
 /// What stands between coordinates and rows; the memory is reused.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Gathering<T> {
@@ -103,7 +106,7 @@ impl<T: Scalar> Gathering<T> {
         let a = &self.jacobian[row * n..][..n];
         let changes = &self.answers[row * size..][..n];
         let inertia = |j: usize| self.matrix[j * size + j].value().abs() / self.scale[j].powi(2);
-        let least = HARDLY.powi(-4) * (0..n).map(inertia).fold(0.0, f64::max);
+        let least = NO_INERTIA * (0..n).map(inertia).fold(0.0, f64::max);
         let (mut along, mut moved) = (0.0, 0.0);
         for (j, (a, change)) in a.iter().zip(changes).enumerate() {
             // In units in which the coordinate has a mass of 1, if it has one to speak of.
