@@ -76,16 +76,18 @@ impl<T: Scalar> Examination<'_, T> {
                 EventKind::Impact | EventKind::Accumulates { .. } if !repeats => {
                     let found = numbers(&event.state);
                     if let EventKind::Accumulates { .. } = event.kind {
-                        // The impacts that are not followed take away the velocity that is left. Until they have ended the
-                        // motion goes on with it, for a time that is known as both its ends are.
+                        // The impacts that are not followed change velocities evenly until they have ended, for a time that is known as both its ends
+                        // are.
                         let left = when - self.time;
                         let known = self.finest * when.abs();
                         let positions = self.expected.q.iter_mut().zip(&mut self.rounding.q);
-                        for ((q, rounding), v) in positions.zip(&self.expected.v) {
-                            *q += v * left;
+                        let velocities = self.expected.v.iter().zip(&found.v);
+                        for ((q, rounding), (v, after)) in positions.zip(velocities) {
+                            *q += 0.5 * (v + after) * left;
                             *rounding += v.abs() * known;
                         }
                         self.expected.v.clone_from(&found.v);
+                        self.time = when;
                     }
                     if !first {
                         self.join(when, &found);

@@ -10,12 +10,10 @@
 
 use super::Run;
 use crate::arithmetic::{Scalar, derivatives, rounding};
-use crate::effects::Item;
 use crate::error::Error;
-use crate::mode::FrictionMode;
 use crate::modes::facts::SwitchFacts;
 use crate::modes::impact::Impact;
-use crate::trajectory::{EventKind, State, Subject};
+use crate::trajectory::State;
 
 /// Shrinking is believed after this many intervals.
 const FEWEST: usize = 3;
@@ -27,6 +25,9 @@ const LOW: f64 = 1e-9;
 
 /// Rounding of a gap, relative to the terms that make it.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// Intervals that shrink by this factor at least shrink to nothing at once: those of a light ball between a heavy one and the floor are squared.
+const COLLAPSES: f64 = 0.1;
 
 /// Time intervals below this share of the time itself cannot be told apart.
 const RESOLUTION: f64 = 64.0 * f64::EPSILON;
@@ -116,6 +117,20 @@ impl<T: Scalar> Impacts<T> {
         (self.unresolved >= FEWEST).then_some((T::zero(), 0.0))
     }
 
+    /// Whether the last two intervals shrank to nothing at once.
+    pub(super) fn collapses(&self) -> bool {
+        self.ratio < COLLAPSES
+    }
+
+    /// How long those impacts last that are left after one at this time, if intervals shrink to nothing.
+    fn left_of_collapse(&self, time: f64) -> Option<f64> {
+        let interval = time - self.last;
+        let ratio = interval / self.interval;
+        // One short interval may be by chance.
+        let collapses = ratio < COLLAPSES && self.collapses();
+        (self.count + 1 >= FEWEST && collapses).then_some(interval * ratio)
+    }
+
     /// What is left, with the derivatives that the last impacts give it.
     fn with_derivatives(&self, left: f64) -> T {
         let [time, last, earlier] = self.times;
@@ -153,6 +168,8 @@ pub(super) struct Train {
     count: usize,
     /// Time and contact of the last ones, in a ring.
     hits: [(f64, usize); WINDOW],
+    /// See [`Run::is_blurred`], of the last one.
+    pub(super) blurred: bool,
 }
 
 impl Default for Train {
@@ -160,6 +177,7 @@ impl Default for Train {
         Train {
             count: 0,
             hits: [(0.0, 0); WINDOW],
+            blurred: false,
         }
     }
 }
@@ -217,17 +235,9 @@ impl<T: Scalar> Run<T> {
                 continue;
             }
             self.switcher.train.book(self.now.t.value(), c);
-            let ended = self.accumulate(c, facts);
-            if let Some((count, remaining)) = ended.or_else(|| self.die_out(c, facts)) {
-                let time = self.now.t;
-                self.switcher.before_holding.clone_from(&self.now.state);
-                let closed = self.close_contacts(c, count, remaining, outcome, facts);
-                if closed.is_err() {
-                    // A motion that cannot go on ends where it was.
-                    self.now.t = time;
-                    self.now.state.clone_from(&self.switcher.before_holding);
-                }
-                closed?;
+            let ended = self.accumulate(c, outcome, facts);
+            if let Some((count, remaining)) = ended.or_else(|| self.die_out(c, outcome, facts)) {
+                self.close_contacts(c, (count, remaining), outcome, facts)?;
                 ends = true;
             }
         }
@@ -236,34 +246,57 @@ impl<T: Scalar> Run<T> {
 
     /// After an impact of contact `c`: closes it if the impacts to come are below the tolerance. Returns the number of
     /// impacts that led here, and how long the others last.
-    fn accumulate(&mut self, c: usize, facts: &mut SwitchFacts) -> Option<(usize, T)> {
+    fn accumulate(
+        &mut self,
+        c: usize,
+        outcome: &Impact<T>,
+        facts: &mut SwitchFacts,
+    ) -> Option<(usize, T)> {
         let (rate, _) = self.rate(self.description().contacts[c].row);
         let impacts = &mut self.switcher.impacts[c];
         let (remaining, uncertain) = impacts.book(self.now.t, rate)?;
-        let height = impacts.height;
         // Nothing becomes more certain by bounces that are too low for the gap.
-        let certain = height <= self.rounding_of_gap(c)
+        let certain = self.flew_low(c)
             || uncertain <= self.settings.tolerance * self.now.t.value().abs().max(1.0)
             || remaining.value() <= rounding::<T>(RESOLUTION) * self.now.t.value().abs();
-        if !(certain && self.is_over(remaining.value())) {
+        if !(certain
+            && self.is_over_together(c, remaining.value(), outcome)
+            && self.ends_undisturbed(c, remaining, outcome, facts))
+        {
             return None;
         }
-        // Contacts that take part in the same cycle close with it: by their own law the time that is left to them is over as well.
         let mut count = 0;
         for other in 0..self.switcher.impacts.len() {
-            let impacts = &self.switcher.impacts[other];
-            let left = impacts.last + impacts.left - self.now.t.value();
-            let together = impacts.count >= FEWEST && self.is_over(left.abs());
-            if other == c || together && self.vanishes(other) {
-                count += impacts.count;
+            if other == c || self.ends_together(other, outcome) {
+                count += self.switcher.impacts[other].count;
                 self.end(other, facts);
             }
         }
         Some((count, remaining))
     }
 
+    /// Whether a contact takes part in the same cycle as one whose impacts end: by its own law the time that is left to it is over as well.
+    pub(super) fn ends_together(&self, c: usize, outcome: &Impact<T>) -> bool {
+        let impacts = &self.switcher.impacts[c];
+        let left = impacts.last + impacts.left - self.now.t.value();
+        impacts.count >= FEWEST && self.is_over_for_gaps(left.abs(), outcome) && self.vanishes(c)
+    }
+
+    /// Whether the impacts of contact `c` are over. Where others that are struck with it go on, nothing else may move by more than the tolerance either.
+    fn is_over_together(&self, c: usize, remaining: f64, outcome: &Impact<T>) -> bool {
+        let mut struck = (0..outcome.struck.len()).filter(|&other| outcome.struck[other]);
+        self.is_over(remaining)
+            || self.is_over_for_gaps(remaining, outcome)
+                && struck.all(|other| other == c || self.ends_together(other, outcome))
+    }
+
     /// The same for contacts that are hit without a law in it.
-    fn die_out(&mut self, c: usize, facts: &mut SwitchFacts) -> Option<(usize, T)> {
+    fn die_out(
+        &mut self,
+        c: usize,
+        outcome: &Impact<T>,
+        facts: &mut SwitchFacts,
+    ) -> Option<(usize, T)> {
         if !(self.switcher.train.is_long() && self.switcher.train.has(c)) {
             return None;
         }
@@ -272,7 +305,10 @@ impl<T: Scalar> Run<T> {
             None if self.is_unresolved() => 0.0,
             None => return None,
         };
-        if remaining > ESTIMATED * self.now.t.value().abs() || !self.is_over(remaining) {
+        // Where rounding hides which contact is hit next, nothing becomes more certain.
+        let certain =
+            remaining <= ESTIMATED * self.now.t.value().abs() || self.switcher.train.blurred;
+        if !(certain && self.is_over_for_gaps(remaining, outcome)) {
             return None;
         }
         for c in 0..self.switcher.impacts.len() {
@@ -285,15 +321,76 @@ impl<T: Scalar> Run<T> {
         Some((count, T::from_f64(remaining)))
     }
 
+    /// Whether an impact strikes contacts at once that were struck one after the other: rounding may hide which of them is hit first.
+    pub(super) fn is_blurred(&self, outcome: &Impact<T>) -> bool {
+        let struck = outcome.struck.iter().zip(&self.now.mode.contacts);
+        let opened = struck.zip(&self.switcher.impacts);
+        let mut opened = opened.filter(|((struck, closed), _)| **struck && !**closed);
+        let last = opened.next().map(|(_, impacts)| impacts.last);
+        opened.any(|(_, impacts)| Some(impacts.last) != last)
+    }
+
+    /// A contact that is hit by the last of impacts which shrink to nothing so fast that rounding hides the next one already, of time or of the gap of
+    /// another one that is hit at once. Of all that are left none rebounds.
+    pub(super) fn collapsing(&self, outcome: &Impact<T>) -> Option<usize> {
+        let opened = |c: &&usize| outcome.struck[**c] && !self.now.mode.contacts[**c];
+        let mut struck = self.switcher.near.iter().filter(opened);
+        let several = self.switcher.train.blurred;
+        let time = self.now.t.value();
+        let ends = |c: &&usize| {
+            let left = self.switcher.impacts[**c].left_of_collapse(time);
+            left.is_some_and(|left| match several {
+                true => self.is_over_for_gaps(left, outcome),
+                false => left <= rounding::<T>(RESOLUTION) * time.abs(),
+            })
+        };
+        struck.find(ends).copied()
+    }
+
+    /// Ends the impacts that collapse with the one of contact `c`, which is solved but has not changed the velocities.
+    pub(super) fn close_collapsed(
+        &mut self,
+        c: usize,
+        outcome: &Impact<T>,
+        facts: &mut SwitchFacts,
+    ) -> Result<(), Error> {
+        let count = self.switcher.impacts[c].count + 1;
+        for other in 0..outcome.struck.len() {
+            if outcome.struck[other] {
+                self.end(other, facts);
+            }
+        }
+        self.close_contacts(c, (count, T::zero()), outcome, facts)
+    }
+
     /// Whether all that can move in so much time is below the tolerance.
     fn is_over(&self, remaining: f64) -> bool {
-        let moves = |(i, (q, v)): (usize, (&T, &T))| {
-            v.value().abs() * remaining > self.settings.allowed(i, q.value().abs())
+        // Below the resolution of time nothing can be told apart.
+        if remaining <= rounding::<T>(RESOLUTION) * self.now.t.value().abs() {
+            return true;
+        }
+        let stays = |(i, (q, v)): (usize, (&T, &T))| {
+            v.value().abs() * remaining <= self.settings.allowed(i, q.value().abs())
         };
         let State { q, v, .. } = &self.now.state;
-        // Below the resolution of time nothing can be told apart.
-        let resolved = remaining > rounding::<T>(RESOLUTION) * self.now.t.value().abs();
-        !(resolved && q.iter().zip(v).enumerate().any(moves))
+        q.iter().zip(v).enumerate().all(stays)
+    }
+
+    /// The same where the last impact is blurred and the gaps alone stay that it strikes.
+    fn is_over_for_gaps(&self, remaining: f64, outcome: &Impact<T>) -> bool {
+        let d = self.description();
+        let mut struck = (0..d.contacts.len()).filter(|&c| outcome.struck[c]);
+        let shuts = |c: usize| {
+            let (rate, _) = self.rate(d.contacts[c].row);
+            rate.abs() * remaining <= self.settings.tolerance * self.locator.polynomials.extents[c]
+        };
+        self.is_over(remaining) || self.switcher.train.blurred && struck.all(shuts)
+    }
+
+    /// Whether contact `c` is between two impacts of a series.
+    pub(super) fn bounces(&self, c: usize) -> bool {
+        let impacts = &self.switcher.impacts[c];
+        impacts.count >= FEWEST && self.now.t.value() - impacts.last <= 2.0 * impacts.interval
     }
 
     /// Whether a contact is open for a flight so low that samples of its gap do not tell when it ends, while Taylor series do.
@@ -310,16 +407,25 @@ impl<T: Scalar> Run<T> {
 
     /// Whether no gap of the train has opened wider, before the last impact there, than rounding makes of it: such impacts never end.
     fn is_unresolved(&self) -> bool {
-        let impacts = self.switcher.impacts.iter().enumerate();
-        let mut train = impacts.filter(|(c, _)| self.switcher.train.has(*c));
-        train.all(|(c, impacts)| impacts.height <= self.rounding_of_gap(c))
+        let mut train = (0..self.switcher.impacts.len()).filter(|&c| self.switcher.train.has(c));
+        train.all(|c| self.flew_low(c))
+    }
+
+    /// Whether contact `c` has opened no wider, before its last impact, than rounding makes of its gap.
+    pub(super) fn flew_low(&self, c: usize) -> bool {
+        self.switcher.impacts[c].height <= self.rounding_of_gap(c)
     }
 
     /// What rounding makes of the gap of contact `c`.
     pub(super) fn rounding_of_gap(&self, c: usize) -> f64 {
+        rounding::<T>(ROUNDING) * self.size_of_gap(c)
+    }
+
+    /// The size of the terms that make the gap of contact `c`.
+    pub(super) fn size_of_gap(&self, c: usize) -> f64 {
         let row = self.description().contacts[c].row;
         let size = |j: usize| self.now.state.q[j].value().abs();
-        rounding::<T>(ROUNDING) * self.dynamics.size_of_row(row, size)
+        self.dynamics.size_of_row(row, size)
     }
 
     /// Whether the gap of contact `c` is below the tolerance.
@@ -332,118 +438,5 @@ impl<T: Scalar> Run<T> {
     pub(super) fn end(&mut self, c: usize, facts: &mut SwitchFacts) {
         (facts.touching[c], facts.parting[c]) = (true, false);
         self.switcher.impacts[c] = Impacts::default();
-    }
-
-    /// Moves the state by a flight so short that the accelerations at hand do not change.
-    fn fly(&mut self, lasts: T) {
-        let half = T::from_f64(0.5) * lasts;
-        let State { q, v, .. } = &mut self.now.state;
-        let motion = self.dynamics.acceleration().iter();
-        for ((q, v), &acceleration) in q.iter_mut().zip(v).zip(motion) {
-            let change = lasts * acceleration;
-            *q += lasts * *v + half * change;
-            *v += change;
-        }
-        self.now.t += lasts;
-    }
-
-    /// How long such a flight has been beyond the surfaces of other contacts than those that are `near`: impacts with one side of a groove end where the
-    /// other one begins.
-    fn time_beyond(&self, near: &[usize]) -> T {
-        let d = self.description();
-        let others = (0..d.contacts.len()).filter(|&c| {
-            let takes_part = self.dynamics.effects().includes(d, Item::Contact(c));
-            let open = !(near.contains(&c) || self.now.below[c]);
-            takes_part && open && self.is_in_region(c)
-        });
-        let since = |c: usize| {
-            let row = &d.rows[d.contacts[c].row];
-            let gap = row
-                .position
-                .map_or(T::zero(), |place| self.dynamics.motion(place));
-            let (rate, _) = self.rate(d.contacts[c].row);
-            let beyond = gap.value() < 0.0 && rate < 0.0;
-            if beyond {
-                gap / T::from_f64(rate)
-            } else {
-                T::zero()
-            }
-        };
-        others.map(since).fold(T::zero(), |most, since| {
-            if since.value() > most.value() {
-                since
-            } else {
-                most
-            }
-        })
-    }
-
-    /// Makes all impacts that are left in the time `remaining`, and logs it.
-    ///
-    /// Together they do what a flight of that length does, and an impact without restitution at its end: momentum does not see
-    /// how impulses are distributed, and neither does friction that slips all the while.
-    fn close_contacts(
-        &mut self,
-        c: usize,
-        count: usize,
-        mut remaining: T,
-        outcome: &Impact<T>,
-        facts: &mut SwitchFacts,
-    ) -> Result<(), Error> {
-        let d = self.description();
-        let mut near = core::mem::take(&mut self.switcher.near);
-        near.clear();
-        near.extend((0..d.contacts.len()).filter(|&c| facts.touching[c]));
-        let mode = &mut self.switcher.scratch_mode;
-        mode.clone_from(&self.now.mode);
-        // What lies where nothing strikes goes on as it did.
-        for &c in near.iter().filter(|&&c| outcome.struck[c]) {
-            mode.contacts[c] = false;
-            d.frictions_on(c)
-                .for_each(|f| mode.frictions[f] = FrictionMode::Inactive);
-        }
-        self.dynamics.set_mode(&self.switcher.scratch_mode);
-        self.evaluate_all_rows()?;
-        self.fly(remaining);
-        self.evaluate_all_rows()?;
-        let beyond = self.time_beyond(&near);
-        if beyond.value() > 0.0 && beyond.value() <= remaining.value() {
-            self.fly(-beyond);
-            self.evaluate_all_rows()?;
-            remaining -= beyond;
-        }
-        let time = self.now.t.value();
-        (self.switcher.collider).bring_to_rest(&self.dynamics, time, &self.now.state.v, &near)?;
-        let rest = core::mem::take(&mut self.switcher.collider.rest);
-        let half = T::from_f64(0.5) * remaining;
-        let State { q, v, .. } = &mut self.now.state;
-        for ((q, v), &after) in q.iter_mut().zip(v).zip(&rest.v) {
-            *q += half * (after - *v);
-            *v = after;
-        }
-        near.iter()
-            .for_each(|&c| self.switcher.scratch_mode.contacts[c] = true);
-        // What comes to rest here does so together with what it lifts.
-        let rubbing = near.iter().flat_map(|&c| d.frictions_on(c));
-        rubbing.filter(|&f| rest.sticks[f]).for_each(|f| {
-            self.switcher.scratch_mode.frictions[f] = FrictionMode::Stick;
-        });
-        self.dynamics.set_mode(&self.switcher.scratch_mode);
-        self.project(true)?;
-        self.evaluate_all_rows()?;
-        for (f, friction) in d.frictions.iter().enumerate() {
-            // A friction with a force of its own has slipped at the last impact and sticks again before the next one.
-            if friction.normal.presses(|c| near.contains(&c)) {
-                facts.resting[f] = rest.sticks[f] || self.slip_vanishes(f);
-            }
-        }
-        (self.switcher.near, self.switcher.collider.rest) = (near, rest);
-        // The mode is still that of the flights, and so are the forces; what changes with the last one does so from here.
-        self.dynamics.set_mode(&self.now.mode);
-        self.evaluate_all_rows()?;
-        let kind = EventKind::Accumulates { impacts: count };
-        self.log_here(Subject::Contact(c), kind);
-        self.remember_before();
-        Ok(())
     }
 }

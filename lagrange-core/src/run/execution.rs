@@ -4,7 +4,8 @@ use super::Run;
 use super::hidden::Hidden;
 use crate::arithmetic::Scalar;
 use crate::error::Error;
-use crate::mode::Mode;
+use crate::mode::{FrictionMode, Mode};
+use crate::modes::guard::Guard;
 use crate::modes::start;
 use crate::settings::{Awaited, check_span, check_start};
 use crate::state::FixedComponents;
@@ -98,6 +99,7 @@ impl<T: Scalar> Run<T> {
         self.recorder.trajectory.start.clone_from(&self.now.state);
         self.now.outdate();
         self.now.mode.clone_from(&self.switcher.status.mode);
+        self.release_contacts_without_direction();
         self.hold_guards();
         if self.evaluate().is_ok() {
             self.release_dead_centres();
@@ -111,6 +113,23 @@ impl<T: Scalar> Run<T> {
             self.now.below[c] = true;
         }
         Ok(())
+    }
+
+    /// Opens contacts whose gap has no gradient where it is zero, as that above a floor which is exactly as low as a pendulum hangs: they carry nothing.
+    fn release_contacts_without_direction(&mut self) {
+        self.dynamics.set_mode(&self.now.mode);
+        self.tape_of_all_rows();
+        self.locator.fallen.clear();
+        for c in 0..self.description().contacts.len() {
+            if self.now.mode.contacts[c] && self.has_no_direction(c) {
+                self.now.mode.contacts[c] = false;
+                let rubbing = self.description().frictions_on(c);
+                rubbing.for_each(|f| self.now.mode.frictions[f] = FrictionMode::Inactive);
+                self.switcher.status.facts.touching[c] = false;
+                self.locator.fallen.push(Guard::Gap(c));
+            }
+        }
+        self.dynamics.set_mode(&self.now.mode);
     }
 
     /// Lets go of what cannot be held together at the start: what is at rest for an instant, as a slider at its dead centre, and surfaces that touch where

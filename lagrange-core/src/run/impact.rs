@@ -15,12 +15,6 @@ use crate::system::Normal;
 /// A gap that changes by no more than so many tolerances per second where its region begins neither closes nor opens there.
 const ENTERS: f64 = 10.0;
 
-/// A gap whose rate is no larger than this beside the velocities may have no gradient,
-const SLOW: f64 = 1e-4;
-
-/// and has one if that is larger than so many times what errors of positions change it by.
-const DIRECTED: f64 = 8.0;
-
 impl<T: Scalar> Run<T> {
     /// The impact of the contacts whose gaps close, if there is one.
     pub(super) fn hit(&mut self, facts: &mut SwitchFacts) -> Result<bool, Error> {
@@ -84,10 +78,7 @@ impl<T: Scalar> Run<T> {
         self.switcher.near = near;
         solved?;
         let mut outcome = core::mem::take(&mut self.switcher.collider.outcome);
-        self.now.state.v.copy_from_slice(&outcome.v);
-        self.log_impacts(&outcome, facts);
-        self.after_impact(&outcome, facts);
-        let accumulated = self.close_accumulated(&outcome, facts);
+        let accumulated = self.take_impact(&outcome, facts);
         if let Ok(true) = accumulated {
             let rest = &self.switcher.collider.rest;
             outcome.impulses.clone_from(&rest.impulses);
@@ -97,30 +88,18 @@ impl<T: Scalar> Run<T> {
         Ok(true)
     }
 
-    /// Whether positions are not known well enough to tell in which direction the gap of an open contact changes: that above a floor which is exactly as low
-    /// as a pendulum hangs has no gradient there.
-    fn has_no_direction(&mut self, c: usize) -> bool {
-        let row = self.description().contacts[c].row;
-        let fastest = self.now.state.v.iter();
-        let fastest = fastest.fold(0.0_f64, |fastest, v| fastest.max(v.value().abs()));
-        let (rate, _) = self.rate(row);
-        if rate.abs() > SLOW * fastest {
-            return false;
+    /// Changes velocities by an impact, and makes those that are left with it where it is the last one that is followed; whether it is.
+    fn take_impact(&mut self, outcome: &Impact<T>, facts: &mut SwitchFacts) -> Result<bool, Error> {
+        self.switcher.train.blurred = self.is_blurred(outcome);
+        if let Some(c) = self.collapsing(outcome) {
+            self.after_impact(outcome, facts);
+            self.close_collapsed(c, outcome, facts)?;
+            return Ok(true);
         }
-        let mut gradient = core::mem::take(&mut self.switcher.gradient);
-        gradient.clear();
-        let elements = self.description().rows[row].jacobian.iter();
-        gradient.extend(elements.map(|&(_, place)| self.dynamics.motion(place).value()));
-        let error = self.settings.tolerance;
-        let moved = |j: usize, _| T::from_f64(if j % 2 == 1 { -error } else { error });
-        let flat = self.beside(None, T::zero(), moved, |run| {
-            let elements = run.description().rows[row].jacobian.iter();
-            let beside = elements.map(|&(_, place)| run.dynamics.motion(place).value());
-            let mut pairs = gradient.iter().zip(beside);
-            pairs.all(|(here, beside)| here.abs() <= DIRECTED * (here - beside).abs())
-        });
-        self.switcher.gradient = gradient;
-        flat
+        self.now.state.v.copy_from_slice(&outcome.v);
+        self.log_impacts(outcome, facts);
+        self.after_impact(outcome, facts);
+        self.close_accumulated(outcome, facts)
     }
 
     /// Whether the gap of contact `c` closes at the present state: faster than rounding does.

@@ -28,12 +28,14 @@ pub(super) struct Switcher<T> {
     pub(super) collider: Collider<T>,
     /// Branches that what touches holds at their border.
     pub(super) held: HeldBranches<T>,
-    /// How a gap changes with the coordinates.
-    pub(super) gradient: Vec<f64>,
+    /// How a gap changes with the coordinates, here and beside, behind a basis of what constraints do not leave free.
+    pub(super) gradients: [Vec<f64>; 2],
     /// Guards that the mode up to the switch watches.
     pub(super) watched: Vec<Guard>,
     /// The conditions of branches before an impact.
     pub(super) conditions: Vec<f64>,
+    /// Values of guards after a flight through impacts that accumulate.
+    pub(super) guards: Vec<f64>,
     /// Contacts whose gap vanishes at an impact.
     pub(super) near: Vec<usize>,
     /// Per contact: its impacts so far.
@@ -63,9 +65,10 @@ impl<T: Scalar> Switcher<T> {
             status: ConstraintStatus::new(d),
             collider: Collider::default(),
             held: HeldBranches::default(),
-            gradient: Vec::with_capacity(d.coordinates.len()),
+            gradients: [Vec::new(), Vec::new()],
             watched: Vec::new(),
             conditions: Vec::new(),
+            guards: Vec::new(),
             near: Vec::with_capacity(contacts),
             impacts: vec![Impacts::default(); contacts],
             train: Train::default(),

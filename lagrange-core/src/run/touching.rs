@@ -34,8 +34,14 @@ impl<T: Scalar> Run<T> {
         self.now.valued = false;
         let closed = contacts.clone().filter(|&c| facts.touching[c]);
         let off = closed.map(|c| self.gap(c).abs()).fold(0.0, f64::max);
+        let lies = facts.touching.contains(&true);
         for c in contacts {
-            if self.may_touch(c, facts) && self.touches(c, off) {
+            // The last flights of a body that bounces are lower than what a body lies with may be off.
+            let nothing = match self.bounces(c) && !lies {
+                true => self.rounding_of_gap(c),
+                false => rounding::<T>(ROUNDING) * self.extent(c) + off,
+            };
+            if self.may_touch(c, facts) && self.touches(c, nothing) {
                 self.end(c, facts);
                 for f in d.frictions_on(c) {
                     facts.resting[f] = self.slip_vanishes(f);
@@ -71,12 +77,12 @@ impl<T: Scalar> Run<T> {
         self.is_in_region(c) && gap <= rounding.max(LEVER * off).max(drifts)
     }
 
-    /// Whether the gap of contact `c` and its rate vanish beside the terms that make them; gaps that vanish are `off` by so much.
-    fn touches(&self, c: usize, off: f64) -> bool {
+    /// Whether the gap of contact `c` is `nothing`, and its rate vanishes beside the terms that make it.
+    fn touches(&self, c: usize, nothing: f64) -> bool {
         let contact = &self.description().contacts[c];
         let (rate, size) = self.rate(contact.row);
         self.is_in_region(c)
-            && self.gap(c).abs() <= rounding::<T>(ROUNDING) * self.extent(c) + off
+            && self.gap(c).abs() <= nothing
             && (rate.abs() <= rounding::<T>(ROUNDING) * size
                 || rate.abs() <= self.rounding_of_time_in_rate(c))
     }

@@ -258,13 +258,17 @@ impl<T: Scalar> Collider<T> {
         }
     }
 
-    /// Kinetic energy of the rounding errors of velocities: what is left of a body that impacts have brought to rest, and what a surface that comes to it
-    /// without speed gives it.
+    /// What rounding errors of velocities make of the kinetic energy: of a body that impacts have brought to rest, by a surface that comes to it without speed,
+    /// and by what is left of the rates of contacts that were closed.
     fn rounding(&self, dynamics: &Dynamics<T>, v: &[T]) -> f64 {
-        let known = |i: usize| UNITS * epsilon::<T>() * (1.0 + v[i].value().abs());
+        let speed = |i: usize| v[i].value().abs();
+        let known = |i: usize| UNITS * epsilon::<T>() * (1.0 + speed(i));
         let mass = dynamics.description().mass.iter();
-        mass.map(|&(i, j, place)| dynamics.motion(place).value().abs() * known(i) * known(j))
-            .sum()
+        let parts = mass.map(|&(i, j, place)| {
+            let of_both = speed(i) * known(j) + known(i) * (speed(j) + known(j));
+            dynamics.motion(place).value().abs() * of_both
+        });
+        parts.sum()
     }
 
     /// Kinetic energy that is not work of moving surfaces, from velocities and impulses: (gain, size of its terms).
