@@ -7,7 +7,7 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::effects::Item;
 use crate::error::Error;
-use crate::mode::{FrictionMode, Mode};
+use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::system::{Description, Friction, Normal, ValueRef};
 
 /// Coefficients given by different formulas may differ by this share and still be meant as equal.
@@ -103,11 +103,26 @@ pub fn check_acting<T: Scalar>(dynamics: &Dynamics<T>, t: f64) -> Result<(), Err
             FrictionMode::Stick => static_friction(friction),
             FrictionMode::Slip(_) => kinetic_friction(friction),
         };
-        let numbers = normal_force(friction).into_iter().chain([coefficient]);
+        let coefficient = (!slips_back(dynamics, f)).then_some(coefficient);
+        let numbers = normal_force(friction).into_iter().chain(coefficient);
         let numbers = numbers.filter(|number| number.place.varies());
         refuse_meaningless(dynamics, t, f, numbers)?;
     }
     Ok(())
+}
+
+/// Whether a friction slips against its direction. It does so by its error only, by which a coefficient that grows steeply with |s|, in which ±s stands for that,
+/// may be below zero.
+fn slips_back<T: Scalar>(dynamics: &Dynamics<T>, f: usize) -> bool {
+    let d = dynamics.description();
+    let slip = dynamics.motion(d.rows[d.frictions[f].row].velocity).value();
+    match dynamics.mode().frictions[f] {
+        FrictionMode::Slip(Sliding {
+            direction: Direction::Fixed([sign, 0.0]),
+            ..
+        }) => sign * slip < 0.0,
+        _ => false,
+    }
 }
 
 /// Whether the motion may take the strength of a friction below zero.

@@ -123,8 +123,7 @@ impl<T: Scalar> Run<T> {
                 self.note_edges_at(end);
                 if self.slips_come_to_rest(end) {
                     self.count_switch()?;
-                    self.leave_stiffness();
-                    self.switch()?;
+                    self.leave_mode()?;
                 }
             }
             Hit::Stop(stop, _) => {
@@ -137,11 +136,21 @@ impl<T: Scalar> Run<T> {
                 if !self.only_creeps(end)? {
                     self.count_switch()?;
                     if !self.only_shares_otherwise()? {
-                        self.leave_stiffness();
-                        self.switch()?;
+                        self.leave_mode()?;
                     }
                 }
             }
+        }
+        Ok(())
+    }
+
+    /// Switches. Where nothing is logged the mode is the same, as where a slip far below the tolerance is zero by the error of the step, and the motion is as
+    /// stiff as before.
+    fn leave_mode(&mut self) -> Result<(), Error> {
+        let events = self.recorder.trajectory.events.len();
+        self.switch()?;
+        if self.recorder.trajectory.events.len() > events {
+            self.leave_stiffness();
         }
         Ok(())
     }

@@ -111,8 +111,12 @@ impl<T: Scalar> ForceBounds<T> {
         let Some(width) = self.changes.first().map(|change| change.len()) else {
             return;
         };
-        let sizes = self.sizes.iter().copied();
-        let least = (SMALLEST * sizes.fold(0.0, f64::max)).max(f64::MIN_POSITIVE);
+        let largest = self.sizes.iter().copied().fold(0.0, f64::max);
+        // Without any load all are alike, and of no size of their own.
+        let least = match largest > 0.0 {
+            true => (SMALLEST * largest).max(f64::MIN_POSITIVE),
+            false => 1.0,
+        };
         let basis = basis(&self.changes, width);
         self.open = DMatrix::from_fn(self.changes.len(), basis.ncols(), |i, j| {
             self.factors[i] * self.changes[i].dot(&basis.column(j))
