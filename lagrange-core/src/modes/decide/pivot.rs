@@ -7,8 +7,8 @@
 //! one only, which cannot come back to a mode where contacts are independent and frictionless (Murty 1974).
 //!
 //! The search begins at the mode nearest to the present one, then where Lemke's method ends on the values at the instant.
-//! Frictions begin by sticking where they can, so that stick comes before slip as in the enumeration; whether another mode
-//! would do as well is not asked.
+//! Frictions begin by sticking where they can, and what slips in the mode that is found is asked whether it could stick as well, so that stick comes before
+//! slip as in the enumeration; whether yet another mode would do is not asked.
 
 use super::Decider;
 use super::candidates::{Choices, look_at_slips, slide};
@@ -43,10 +43,22 @@ impl<T: Scalar> Decider<T> {
         if !here.facts.again && located.any(|guard| guard.holding().is_some()) {
             let mut holds = here.present.clone();
             Choices { dynamics, here }.begin(&mut holds, true);
-            self.decision.expanded = false;
-            if !here.ends(&holds) && self.examine(dynamics, table, here, &holds)? {
-                self.decision.ambiguous = self.forks;
-                self.keep(dynamics);
+            if self.takes(dynamics, table, here, &holds) {
+                return Ok(true);
+            }
+        }
+        if self.one_lets_go(dynamics, table, here, &near) {
+            return Ok(true);
+        }
+        // A slip that has come to zero ends or turns round, if nothing else need change.
+        if let [Guard::Slip(f)] = here.facts.located[..] {
+            let mut turns = near.clone();
+            turns.frictions[f] = turned_round(here.present.frictions[f]);
+            self.sticks_first = true;
+            let mut either = [&near, &turns].into_iter();
+            let taken = either.any(|mode| self.takes(dynamics, table, here, mode));
+            self.sticks_first = false;
+            if taken {
                 return Ok(true);
             }
         }
@@ -61,10 +73,84 @@ impl<T: Scalar> Decider<T> {
             outcome = self.pivot_from(dynamics, table, here, mode);
             self.sticks_first = false;
             if let Ok(true) = outcome {
+                self.hold_what_can(dynamics, table, here);
                 break;
             }
         }
         outcome
+    }
+
+    /// Takes a mode in which the friction that has been overcome lets go, or else another one of one component alone in its place.
+    fn one_lets_go(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        table: &mut Table,
+        here: SwitchContext<'_, T>,
+        near: &Mode,
+    ) -> bool {
+        let [located] = here.facts.located[..] else {
+            return false;
+        };
+        let Some(overcome) = located.holding() else {
+            return false;
+        };
+        let mut holds = near.clone();
+        holds.frictions[overcome] = FrictionMode::Stick;
+        let frictions = dynamics.description().frictions.iter().enumerate();
+        let others = frictions.filter(|&(f, friction)| {
+            f != overcome && friction.components == 1 && holds.frictions[f] == FrictionMode::Stick
+        });
+        let slides = others.flat_map(|(f, _)| [(f, 1.0), (f, -1.0)]);
+        let modes = slides.map(|(f, direction)| {
+            let mut mode = holds.clone();
+            mode.frictions[f] = slide(direction, 1.0);
+            mode
+        });
+        let mut modes = core::iter::once(near.clone()).chain(modes);
+        self.sticks_first = true;
+        let found = modes.any(|mode| self.takes(dynamics, table, here, &mode));
+        self.sticks_first = false;
+        found
+    }
+
+    /// Lets frictions stick that slip in the mode found and need not, but for those that have been overcome.
+    fn hold_what_can(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        table: &mut Table,
+        here: SwitchContext<'_, T>,
+    ) {
+        for f in 0..self.best.frictions.len() {
+            let slips = matches!(self.best.frictions[f], FrictionMode::Slip(_));
+            let begins = here.facts.resting[f] && slips;
+            let mut located = here.facts.located.iter();
+            if !begins || located.any(|guard| guard.holding() == Some(f)) {
+                continue;
+            }
+            let mut holds = self.best.clone();
+            holds.frictions[f] = FrictionMode::Stick;
+            self.takes(dynamics, table, here, &holds);
+        }
+    }
+
+    /// Takes a mode for the one that goes on, if it is feasible, which one that cannot be evaluated is not.
+    fn takes(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        table: &mut Table,
+        here: SwitchContext<'_, T>,
+        mode: &Mode,
+    ) -> bool {
+        self.decision.expanded = false;
+        let feasible =
+            !here.ends(mode) && matches!(self.examine(dynamics, table, here, mode), Ok(true));
+        if feasible {
+            self.decision.ambiguous = self.forks;
+            self.keep(dynamics);
+        } else {
+            self.decision.expanded = false;
+        }
+        feasible
     }
 
     fn pivot_from(
@@ -108,6 +194,18 @@ impl<T: Scalar> Decider<T> {
         }
         Ok(false)
     }
+}
+
+/// A friction that slips the other way.
+fn turned_round(mut friction: FrictionMode) -> FrictionMode {
+    if let FrictionMode::Slip(Sliding {
+        direction: Direction::Fixed(direction),
+        ..
+    }) = &mut friction
+    {
+        *direction = direction.map(|part| -part);
+    }
+    friction
 }
 
 /// A fixed order of the guards.

@@ -9,6 +9,9 @@ use crate::arithmetic::Scalar;
 use crate::modes::impact::collision::{Collision, FrictionRow, NormalSource};
 use crate::modes::impact::pattern::{Pattern, Phase, Slide};
 
+/// All that so many frictions may do is looked at once contacts are known that are pressed.
+const MOST_WEIGHED: usize = 6;
+
 /// Solutions whose rates differ by less than this share of them are the same.
 const SAME: f64 = 1e-9;
 
@@ -27,29 +30,82 @@ impl<T: Scalar> Search<T> {
         let few = self.combinations(c).is_some_and(|n| n <= FEW);
         let mut found: Vec<Pattern<T>> = Vec::new();
         for open in 0..1_usize << self.taking.len() {
-            self.begin_with(open, c, phase);
-            let (before, mut most) = (found.len(), 0);
-            while self.next_solution(c, phase) {
-                let sticking = self.sticking();
-                let alone = !few || self.acting.len() < 2 || sticking == self.acting.len();
-                if found.is_empty() && alone && !self.pattern.may_jam(c) {
-                    return true;
-                }
-                if sticking > most {
-                    found.truncate(before);
-                    most = sticking;
-                }
-                if sticking == most && !found.iter().any(|other| other.moves_as(&self.pattern)) {
-                    found.push(self.pattern.clone());
-                }
-                if alone || !self.next_choice(c) {
-                    break;
-                }
+            let before = found.len();
+            if self.list_with(open, few, &mut found, c, phase) {
+                return true;
             }
             if before == 0 && !found.is_empty() && !found.iter().any(|found| found.may_jam(c)) {
                 break;
             }
         }
+        self.take_least(found, phase)
+    }
+
+    /// Where less holds what slides than what sticks, several solutions may have the same contacts pressed as the one in `pattern`: leaves that in it which
+    /// counts, and the others in `others`.
+    pub(super) fn weigh(&mut self, c: &Collision<T>, phase: &Phase<T>) {
+        let mut rough = c.rubs.iter().filter(|rub| rub.is_rough());
+        let differ = rough.any(|rub| rub.stick.value() > rub.slide.value());
+        let free = |(bit, &k): (usize, &usize)| usize::from(!self.pattern.pressed[k]) << bit;
+        let few = self.taking.len() < usize::BITS as usize;
+        if !differ || self.pattern.undetermined || !few {
+            return;
+        }
+        let open = self.taking.iter().enumerate().map(free).sum();
+        self.list_acting(c, phase);
+        let mut first = self.pattern.clone();
+        if self.acting.len() > MOST_WEIGHED {
+            for k in 0..self.acting.len() {
+                let slide =
+                    core::mem::replace(&mut self.pattern.slides[self.acting[k]], Slide::Stick);
+                if slide != Slide::Stick && self.holds(c, phase) {
+                    first.clone_from(&self.pattern);
+                } else {
+                    self.pattern.clone_from(&first);
+                }
+            }
+            return;
+        }
+        let mut found = Vec::new();
+        if !(self.list_with(open, true, &mut found, c, phase) || self.take_least(found, phase)) {
+            self.pattern = first;
+        }
+    }
+
+    /// Lists the solutions with the contacts free that `open` has bits for in which most sticks. Whether the first one, which is then in `pattern`, is all that
+    /// need be looked at; unless `all` are listed it is where nothing jams.
+    fn list_with(
+        &mut self,
+        open: usize,
+        all: bool,
+        found: &mut Vec<Pattern<T>>,
+        c: &Collision<T>,
+        phase: &Phase<T>,
+    ) -> bool {
+        self.begin_with(open, c, phase);
+        let (before, mut most) = (found.len(), 0);
+        while self.next_solution(c, phase) {
+            let sticking = self.sticking();
+            let alone = !all || self.acting.len() < 2 || sticking == self.acting.len();
+            if found.is_empty() && alone && !self.pattern.may_jam(c) {
+                return true;
+            }
+            if sticking > most {
+                found.truncate(before);
+                most = sticking;
+            }
+            if sticking == most && !found.iter().any(|other| other.moves_as(&self.pattern)) {
+                found.push(self.pattern.clone());
+            }
+            if alone || !self.next_choice(c) {
+                break;
+            }
+        }
+        false
+    }
+
+    /// Of solutions takes that with the least jump of the velocities; false if there is none.
+    fn take_least(&mut self, mut found: Vec<Pattern<T>>, phase: &Phase<T>) -> bool {
         let jumps = |pattern: &Pattern<T>| pattern.jump(phase);
         let least = (0..found.len()).min_by(|&i, &j| jumps(&found[i]).total_cmp(&jumps(&found[j])));
         let Some(least) = least else {

@@ -86,7 +86,11 @@ impl<T: Scalar> Search<T> {
         if count.is_some_and(|n| n <= FEW) {
             return self.enumerate(c, phase) || self.complement(c, phase);
         }
-        self.complement(c, phase) || count.is_some_and(|n| n <= MOST) && self.enumerate(c, phase)
+        if self.complement(c, phase) {
+            self.weigh(c, phase);
+            return true;
+        }
+        count.is_some_and(|n| n <= MOST) && self.enumerate(c, phase)
     }
 
     /// Solves and judges the present combination. What comes to rest in it sticks, if it can: a cone leaves open how forces are shared.
