@@ -16,6 +16,7 @@ mod tests;
 pub use dual::Dual;
 pub(crate) use number::{
     GOLDEN, LIGHT, Number, derivatives, epsilon, is_spread, positive_definite, rounding, uneven,
+    within_one,
 };
 pub(crate) use pack::Pack;
 pub(crate) use registers::Registers;

@@ -5,6 +5,9 @@ use super::pack::each_lane;
 use super::{Pack, Scalar};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+/// So many units of rounding may be between 1 and a cosine.
+const BEYOND: f64 = 8.0;
+
 /// A number of a motion, or one of each of several motions: every operation gives each what it would give it alone.
 pub trait Number:
     Fours
@@ -81,6 +84,17 @@ pub(crate) fn derivatives<T: Scalar>(x: T) -> T {
         return T::zero();
     }
     x - T::from_f64(x.value())
+}
+
+/// The argument of an asin or acos. Rounding may leave the cosine of an angle that is zero beyond ±1, where there is no angle.
+#[inline(always)]
+pub(crate) fn within_one<T: Scalar>(x: T) -> T {
+    let value = x.value();
+    if value.abs() > 1.0 && value.abs() <= 1.0 + BEYOND * epsilon::<T>() {
+        T::from_f64(value.signum())
+    } else {
+        x
+    }
 }
 
 /// The distance from 1 to the next number of a type.

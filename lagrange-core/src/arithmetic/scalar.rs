@@ -1,6 +1,6 @@
 //! The machine numbers as [`Scalar`].
 
-use super::Scalar;
+use super::{Scalar, within_one};
 
 macro_rules! machine_number {
     ($type:ident) => {
@@ -35,11 +35,11 @@ macro_rules! machine_number {
             }
             #[inline(always)]
             fn asin(self) -> Self {
-                $type::asin(self)
+                $type::asin(within_one(self))
             }
             #[inline(always)]
             fn acos(self) -> Self {
-                $type::acos(self)
+                $type::acos(within_one(self))
             }
             #[inline(always)]
             fn atan(self) -> Self {

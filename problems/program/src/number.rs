@@ -1,5 +1,7 @@
 //! Numbers as people write them: `1e-3`, `pi/3`; counts `400`, `1e6`.
 
+use lagrange_engine::diagnostics::Diagnostics;
+
 /// A finite number, or an expression that is one.
 ///
 /// # Errors
@@ -7,14 +9,23 @@
 pub fn finite(text: &str) -> Result<f64, String> {
     let text = text.trim();
     let number = match text.parse::<f64>() {
-        Ok(number) => Some(number),
-        Err(_) => lagrange_engine::number(text).ok(),
+        Ok(number) => number,
+        Err(_) => lagrange_engine::number(text).map_err(|mistakes| why_not(text, &mistakes))?,
     };
-    match number {
-        Some(number) if number.is_finite() => Ok(number),
-        Some(_) => Err("the value must be finite".to_owned()),
-        None => Err(format!("`{text}` is not a number")),
+    match number.is_finite() {
+        true => Ok(number),
+        false => Err("the value must be finite".to_owned()),
     }
+}
+
+/// That a text is not a number, and by which mistake.
+fn why_not(text: &str, mistakes: &Diagnostics) -> String {
+    let told = format!("`{text}` is not a number");
+    let first = mistakes.iter().take(1);
+    let parts = first.flat_map(|mistake| [&mistake.message, &mistake.hint]);
+    let parts = parts.filter(|part| !part.is_empty() && **part != told);
+    let why: Vec<&str> = parts.map(String::as_str).collect();
+    format!("{told}: {}", why.join("; "))
 }
 
 /// A whole number from 1, also in the notation `1e6`; what is beyond a `usize` becomes the largest one.
@@ -46,10 +57,34 @@ mod tests {
         ] {
             assert_eq!(finite(text), Ok(expected), "{text}");
         }
-        for wrong in [
-            "", "two", "2 pi", "x", "1/0", "sqrt(-1)", "(", "1,2", "[1]", "'", "\"", "1 # 2",
+        for wrong in ["", "2 pi", "x", "(", "[1]", "'", "\"", "1 # 2", "2^sin"] {
+            let told = finite(wrong).expect_err("no number");
+            assert!(
+                told.starts_with(&format!("`{wrong}` is not a number: ")),
+                "{told}"
+            );
+        }
+        for (wrong, why) in [
+            ("1/0", "division by zero"),
+            (
+                "sqrt(-1)",
+                "`sqrt(-1)` has no value; the numbers are outside of where it is defined",
+            ),
+            (
+                "two",
+                "`two` is not known; only numbers and `pi` stand here",
+            ),
+            ("2pi", "a product is written with `*`: `2*pi`"),
+            ("PI/2", "`PI` is not known; did you mean `pi`?"),
+            ("π/3", "`π` is not known; write `pi`"),
+            ("30deg", "angles are in radians: 30° is `pi/6`"),
+            (
+                "1,2",
+                "`,` is not an operator here; decimals are written with a point: `1.5`",
+            ),
         ] {
-            assert_eq!(finite(wrong), Err(format!("`{wrong}` is not a number")));
+            let told = format!("`{wrong}` is not a number: {why}");
+            assert_eq!(finite(wrong), Err(told));
         }
         for wrong in ["inf", "nan", "1e999", "-inf"] {
             assert_eq!(finite(wrong), Err("the value must be finite".to_owned()));

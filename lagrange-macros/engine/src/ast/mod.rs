@@ -50,7 +50,7 @@ impl Declaration {
             fields: Vec::new(),
             items: Vec::new(),
             core: None,
-            home: Home::File,
+            home: Home::Line,
         }
     }
 }
@@ -62,6 +62,8 @@ pub enum Home {
     Struct,
     /// In a text file.
     File,
+    /// Nowhere: an expression of numbers stands alone, as on a command line.
+    Line,
 }
 
 impl Home {
@@ -69,15 +71,22 @@ impl Home {
     pub fn with_unit(self, unit: &str) -> String {
         match self {
             Home::Struct => format!("a field with `#[lagrange(unit = \"{unit}\")]`"),
-            Home::File => format!("a parameter, `parameters(name: \"{unit}\" = …)`"),
+            Home::File | Home::Line => {
+                format!("a parameter, `parameters(name: \"{unit}\" = …)`")
+            }
         }
     }
 
-    /// What a parameter is.
-    pub fn parameter(self) -> &'static str {
+    /// What to do about a name that is not known.
+    pub fn unknown(self) -> &'static str {
         match self {
-            Home::Struct => "a parameter (a field of the struct)",
-            Home::File => "a parameter, `parameters(name = 1)`",
+            Home::Struct => {
+                "declare it as a parameter (a field of the struct), a coordinate, or with `define`"
+            }
+            Home::File => {
+                "declare it as a parameter, `parameters(name = 1)`, a coordinate, or with `define`"
+            }
+            Home::Line => "only numbers and `pi` stand here",
         }
     }
 }

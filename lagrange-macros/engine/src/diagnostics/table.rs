@@ -46,7 +46,7 @@ table! {
     ComparisonExpected "E011" "expected a comparison" "write {0}";
     ComparisonAsValue "E012" "a comparison is not a value" "`if(a >= b, x, y)` chooses between values; `stop`, `mark`, `contact` and `constraint` take comparisons";
     StrictComparison "E013" "`{0}` is not used here" "write `{0}=`: a switch happens where both sides are equal";
-    ChainedComparison "E014" "comparisons do not chain" "write two items, or of a stop or mark two conditions: `a <= x and x <= b`";
+    ChainedComparison "E014" "comparisons do not chain" "{0}";
     WrongRelation "E015" "`{0}` does not make a {1}" "{2}";
     UnknownPart "E016" "`{0}` is not a part of `{1}`" "{2}";
     RepeatedPart "E017" "`{0}` is given twice" "keep one";
@@ -131,6 +131,7 @@ table! {
     Bearing "E516" "{0}" "{1}";
     NoRest "E517" "this Lagrangian has no value where nothing moves" "its value at rest says what is potential energy: declare `kinetic = …` and `potential = …` in its place";
     PointHeld "E518" "this point cannot move in as many directions as it has coordinates" "the gap has no slope in the others: name the point by coordinates that move freely, as in `at x`, or leave `at` out where the gap is itself a distance";
+    StrongerOneWay "E519" "this friction is stronger one way than the other, and at rest it has one strength" "one of a against a positive slip s and b against a negative one is `limit = (a + b)/2` beside `force(push: (b - a)/2 along s)`; a one-way clutch has a = 0";
 
     NoInertia "E601" "the coordinate `{0}` has no inertia" "no kinetic energy contains `der({0})`, and no constraint ties it: add its kinetic energy, tie it with `constraint(name: der({0}) == …)`, or remove it";
     EquationCount "E602" "{0} equations for {1} unknowns" "{2}";
@@ -149,6 +150,7 @@ table! {
     UnitsAdded "E705" "adds {0} to {1}" "{2}";
     UnitsCompared "E706" "compares {0} with {1}" "{2}";
     PressedBy "E707" "the force of `{0}` is {1}, and what presses is {2}" "{3}";
+    UnitsChosen "E708" "chooses between {1} and {0}" "{2}";
 
     CheckFalse "E801" "`{0}` does not hold{1}" "{2}";
     CheckNever "E802" "no state fulfils the condition of this check" "{0}";

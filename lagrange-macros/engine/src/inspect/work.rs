@@ -97,7 +97,11 @@ pub(super) fn derivation(
         _ => (&program.equations, pool),
     };
     let system = &equations.system;
-    let guards = system.branches.iter().map(|branch| branch.guard).collect();
+    let guards = system
+        .branches
+        .iter()
+        .map(|branch| branch.declared)
+        .collect();
     let mut work = Work {
         equations,
         names: &names,

@@ -8,11 +8,12 @@ use super::depth::{Context, Depth, Reach};
 use super::elaboration::Elaboration;
 use super::value::{Value, area, cross, dot, norm};
 use super::{Contact, Restitution};
-use crate::ast;
+use crate::ast::{self, Comparison};
 use crate::diagnostics::Code;
 use crate::symbolic::ExprId;
 
 const GAP: Context = Context::new(Reach::Positions, "a gap");
+const SPEED: Context = Context::new(Reach::Motion, "a gap");
 const REGION: Context = Context::new(Reach::Positions, "the region of a contact");
 const POINT: Context = Context::new(Reach::Positions, "a point");
 const RESTITUTION: Context = Context::new(Reach::Motion, "a restitution");
@@ -21,7 +22,7 @@ impl Elaboration<'_> {
     pub fn contact(&mut self, declared: &ast::Contact) {
         let at = declared.gap.extent();
         self.each(&declared.head, |this, name| {
-            let gap = this.difference(&declared.gap, GAP);
+            let gap = this.gap(&declared.gap);
             let restitution = match &declared.restitution {
                 None => Some(Restitution::Newton(this.system.pool.integer(0))),
                 Some(ast::Restitution::Newton(e)) => {
@@ -34,7 +35,7 @@ impl Elaboration<'_> {
             let region = declared
                 .region
                 .as_ref()
-                .map(|region| this.difference(region, REGION));
+                .map(|region| this.condition(region, REGION));
             if let (Some(law), Some(value)) = (&declared.restitution, &restitution) {
                 this.sensible_restitution(law, *value)?;
             }
@@ -64,6 +65,39 @@ impl Elaboration<'_> {
             });
             Some(this.system.contacts.len() - 1)
         });
+    }
+
+    /// A gap; of a velocity that is written as one it is told what has one sign only.
+    fn gap(&mut self, declared: &Comparison) -> Option<ExprId> {
+        let gap = self.difference(declared, SPEED)?;
+        // What decides between its sides is a part of it.
+        let mut parts = vec![gap];
+        let mut read = 0;
+        while let Some(&part) = parts.get(read) {
+            let branches = self.system.pool.branches(part).into_iter();
+            let guards = branches.map(|b| self.system.branches[b].guard);
+            let new: Vec<ExprId> = guards.filter(|guard| !parts.contains(guard)).collect();
+            parts.extend(new);
+            read += 1;
+        }
+        let symbols = parts
+            .iter()
+            .flat_map(|&part| self.system.pool.symbols(part));
+        let depths: Vec<Depth> = symbols.map(|s| self.depths[s.index()]).collect();
+        if !depths.contains(&Depth::Velocity) {
+            return Some(gap);
+        }
+        if parts.len() > 1 || depths.contains(&Depth::Position) {
+            return self.difference(declared, GAP);
+        }
+        let speed = match declared.left.is_number() {
+            true => &declared.right,
+            false => &declared.left,
+        };
+        let hint = "a velocity s that has one sign only, as of a one-way clutch that holds H, is `force(push: H/2 along s)` with `friction(clutch: slip = s, limit = H/2)`";
+        self.sink
+            .report(Code::VelocityHere, speed.extent, &[&GAP.what, speed, &hint]);
+        None
     }
 
     /// Whether a restitution that is a number is one.

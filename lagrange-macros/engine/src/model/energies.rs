@@ -248,7 +248,7 @@ impl Elaboration<'_> {
 }
 
 /// A number between −1 and 1 for a symbol in a state (the golden ratio spreads them).
-fn arbitrary(state: u32, symbol: Symbol) -> f64 {
+pub(super) fn arbitrary(state: u32, symbol: Symbol) -> f64 {
     let k = f64::from(state + 1) + 7.31 * (symbol.index() + 1) as f64;
     2.0 * (k * 0.618_033_988_749_894_9).fract() - 1.0
 }

@@ -35,6 +35,7 @@ impl Elaboration<'_> {
                 (None, given) => Normal::Given(given?),
             };
             let slip = slip?;
+            this.as_strong_both_ways(&declared.law, sliding, &slip)?;
             if let Normal::Contact(contact) = normal {
                 this.along_surface(contact, &slip, &declared.slip)?;
             }

@@ -7,7 +7,6 @@ use super::meaning::{Kind, Meaning};
 use super::value::Value;
 use crate::ast::{Expr, ExprKind, Name, Reference};
 use crate::diagnostics::Code;
-use crate::parse::FUNCTIONS;
 
 impl Elaboration<'_> {
     /// `pi`, `t`, an index, `energy`, or a name of the namespace.
@@ -28,7 +27,7 @@ impl Elaboration<'_> {
         }
         if super::names::is_reserved(text) && !self.names.contains_key(text) {
             let hint = format!("write `{text}(…)`");
-            match FUNCTIONS.contains(&text) {
+            match super::names::is_function(text) {
                 true => self.sink.report(
                     Code::WrongKind,
                     name,

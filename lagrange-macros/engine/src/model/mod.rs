@@ -23,6 +23,7 @@ mod evaluate;
 mod forces;
 mod frictions;
 mod indices;
+mod inverse;
 mod lookup;
 mod meaning;
 mod names;
@@ -32,6 +33,7 @@ mod piecewise;
 mod reach;
 mod rows;
 mod seen;
+mod sided;
 mod starts;
 mod structure;
 #[cfg(test)]
@@ -401,6 +403,8 @@ pub struct Dissipation {
 pub struct Branch {
     /// ≥ 0 selects `then`.
     pub guard: ExprId,
+    /// The same as it is declared, for the reader.
+    pub declared: ExprId,
     /// What holds on the `then` side, in the words of the user: `x - y >= 0`.
     pub then: String,
     /// What holds on the other side, `x - y < 0`.

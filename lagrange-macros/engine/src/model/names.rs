@@ -82,13 +82,13 @@ impl Elaboration<'_> {
             true => None,
             false => nearest(text, of_kind.map(|(known, _)| known.as_str())),
         };
-        let hint = match near {
-            Some(known) => format!("did you mean `{known}`?"),
-            None => match self.velocity(text) {
-                Some(velocity) if kinds.contains(&Kind::Coordinate) => velocity,
-                _ => self.known(kinds),
-            },
+        // `vx` is near to `x`, and means something else.
+        let velocity = match kinds.contains(&Kind::Coordinate) {
+            true => self.velocity(text),
+            false => None,
         };
+        let meant = near.map(|known| format!("did you mean `{known}`?"));
+        let hint = velocity.or(meant).unwrap_or_else(|| self.known(kinds));
         self.sink.report(Code::UnknownName, name, &[&text, &hint]);
     }
 
@@ -132,6 +132,11 @@ impl Elaboration<'_> {
         if let Some(velocity) = self.velocity(text) {
             return velocity;
         }
+        if ["kinetic", "potential", "lagrangian"].contains(&text) {
+            return format!(
+                "`energy` is the whole energy; a part of it is named where it is declared: `define(part = …), {text} = part`"
+            );
+        }
         if text.contains('·') {
             return format!("a product is written `{}`", text.replace('·', "*"));
         }
@@ -144,10 +149,7 @@ impl Elaboration<'_> {
             .chain(["pi", "energy"]);
         match nearest(text, names) {
             Some(known) => format!("did you mean `{known}`?"),
-            None => {
-                let parameter = self.home.parameter();
-                format!("declare it as {parameter}, a coordinate, or with `define`")
-            }
+            None => self.home.unknown().to_owned(),
         }
     }
 
@@ -277,6 +279,11 @@ pub(crate) fn shouting(name: &str) -> String {
         }
     }
     constant
+}
+
+/// Whether a word is that of a function, be it of values or of an item.
+pub(super) fn is_function(word: &str) -> bool {
+    FUNCTIONS.contains(&word) || ["gap", "slip", "momentum"].contains(&word)
 }
 
 /// Whether a word cannot be a name. Nothing is called `_` in Rust.

@@ -1,6 +1,6 @@
 //! What is reported, what ends a run, and what is logged.
 
-use super::depth::{Context, Depth, Reach};
+use super::depth::{Context, Reach};
 use super::elaborate::item_name;
 use super::elaboration::Elaboration;
 use super::meaning::{Kind, Meaning};
@@ -8,7 +8,6 @@ use super::value::Value;
 use super::{Condition, Observe, Watch};
 use crate::ast::{self, Clause, Expr, ExprKind, ModeWord, Name, Trigger};
 use crate::diagnostics::Code;
-use crate::symbolic::ExprId;
 
 const OUTPUT: Context = Context::new(Reach::Outputs, "an output");
 
@@ -66,7 +65,13 @@ impl Elaboration<'_> {
                 zeros: matches!(declared.trigger, Trigger::Zero(_)),
             };
             match &declared.trigger {
-                Trigger::Zero(e) => watch.terms.push(this.scalar(e, OUTPUT)?),
+                Trigger::Zero(e) => {
+                    let term = this.scalar(e, OUTPUT)?;
+                    let on_argument = this.on_argument(term);
+                    // A root that is never negative may still be zero.
+                    let never = this.system.pool.as_number(on_argument).is_some();
+                    watch.terms.push(if never { term } else { on_argument });
+                }
                 Trigger::All(clauses) => {
                     let read: Vec<Option<()>> = clauses
                         .iter()
@@ -75,16 +80,8 @@ impl Elaboration<'_> {
                     read.into_iter().collect::<Option<()>>()?;
                 }
             }
-            let moves = |e: ExprId| {
-                this.depth(&[e]) > Depth::Parameter
-                    || this.system.pool.depends_on(e, this.system.time)
-            };
-            // What is 1 or −1 changes with the condition that decides on it.
-            let depends = |&e: &ExprId| {
-                let mut branches = this.system.pool.branches(e).into_iter();
-                moves(e) || branches.any(|b| moves(this.system.branches[b].guard))
-            };
-            if watch.conditions.is_empty() && !watch.terms.iter().any(depends) {
+            let mut terms = watch.terms.iter();
+            if watch.conditions.is_empty() && !terms.any(|&term| this.moves(term)) {
                 let hint = "it never changes: compare something that moves, or `t`";
                 let what = kind.text();
                 this.sink.report(
@@ -106,7 +103,7 @@ impl Elaboration<'_> {
     fn clause(&mut self, clause: &Clause, watch: &mut Watch) -> Option<()> {
         match clause {
             Clause::Comparison(comparison) => {
-                let term = self.difference(comparison, OUTPUT)?;
+                let term = self.condition(comparison, OUTPUT)?;
                 watch.terms.push(term);
             }
             Clause::Mode(word, item) => {

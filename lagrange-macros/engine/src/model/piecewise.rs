@@ -26,36 +26,33 @@ impl Elaboration<'_> {
     /// `then` while guard ≥ 0; equal guards share a branch, and a guard that is a number decides at once.
     fn select(
         &mut self,
-        guard: ExprId,
+        declared: ExprId,
         then: ExprId,
         otherwise: ExprId,
-        sides: Sides,
+        Sides([holds, fails]): Sides,
         at: Extent,
     ) -> ExprId {
-        match self.system.pool.as_number(guard) {
-            Some(number) if number.is_negative() => otherwise,
-            Some(_) => then,
-            None => {
-                let branch = self.branch(guard, sides, at);
-                self.system.pool.select(branch, then, otherwise)
-            }
+        let guard = self.on_argument(declared);
+        if let Some(number) = self.system.pool.as_number(guard) {
+            return if number.is_negative() {
+                otherwise
+            } else {
+                then
+            };
         }
-    }
-
-    fn branch(&mut self, guard: ExprId, Sides([then, otherwise]): Sides, at: Extent) -> usize {
         let branches = &mut self.system.branches;
         let next = branches.len();
         let branch = *self.branches.get_or_insert(guard, next);
-        if branch < next {
-            return branch;
+        if branch == next {
+            branches.push(Branch {
+                guard,
+                declared,
+                then: holds,
+                otherwise: fails,
+                span: at.start,
+            });
         }
-        branches.push(Branch {
-            guard,
-            then,
-            otherwise,
-            span: at.start,
-        });
-        branch
+        self.system.pool.select(branch, then, otherwise)
     }
 
     /// An expression in the words of the user, with numbers for indices: `w[0]` and `w[1]` are told apart.

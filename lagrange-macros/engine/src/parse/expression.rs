@@ -301,7 +301,7 @@ fn conditional(inside: Cursor, extent: Extent, sink: &mut Diagnostics) -> Option
         );
         return None;
     };
-    let condition = comparison(condition, "`a >= b`", sink).and_then(|found| {
+    let condition = comparison(condition, CONDITION, sink).and_then(|found| {
         leftover(condition, sink)?;
         Some(found)
     });
@@ -383,14 +383,24 @@ fn no_value(cursor: &Cursor, sink: &mut Diagnostics) {
     sink.report(Code::Operator, cursor.here(), &[&operator, &hint]);
 }
 
-/// `left >= right` or `left <= right`. `example` says what to write if there is none.
+/// What to write where there is no comparison, and where there is a chain of them.
+pub(super) type Advice = (&'static str, &'static str);
+
+/// Of `if`.
+const CONDITION: Advice = (
+    "`a >= b`",
+    "for `a <= x <= b` write `min(x - a, b - x) >= 0`",
+);
+
+/// `left >= right` or `left <= right`
 pub(super) fn comparison(
     cursor: &mut Cursor,
-    example: &str,
+    advice: Advice,
     sink: &mut Diagnostics,
 ) -> Option<Comparison> {
+    let (example, of_chain) = advice;
     if let Some(mut inside) = invisible(cursor, sink) {
-        let found = comparison(&mut inside, example, sink)?;
+        let found = comparison(&mut inside, advice, sink)?;
         leftover(&mut inside, sink)?;
         return Some(found);
     }
@@ -419,7 +429,7 @@ pub(super) fn comparison(
     };
     cursor.take(operator.unwrap_or_default());
     let right = expression(cursor, sink)?;
-    unchained(cursor, sink)?;
+    unchained(cursor, of_chain, sink)?;
     Some(Comparison {
         left,
         relation,
@@ -428,12 +438,12 @@ pub(super) fn comparison(
 }
 
 /// Reports a second relation behind a comparison or equation.
-pub(super) fn unchained(cursor: &Cursor, sink: &mut Diagnostics) -> Option<()> {
+pub(super) fn unchained(cursor: &Cursor, hint: &str, sink: &mut Diagnostics) -> Option<()> {
     if cursor
         .operator()
         .is_some_and(|operator| RELATIONS.contains(&operator))
     {
-        sink.report(Code::ChainedComparison, cursor.here(), &[]);
+        sink.report(Code::ChainedComparison, cursor.here(), &[&hint]);
         return None;
     }
     Some(())

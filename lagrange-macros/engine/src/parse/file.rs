@@ -11,6 +11,7 @@
 use super::cursor::{Cursor, DEEPEST};
 use super::expression;
 use super::item::{self, Items, Parameters, attributes};
+use super::leftover::leftover;
 use super::structure;
 use super::words::{DEGREES, SINGLE_QUOTES};
 use crate::ast::{Declaration, Expr, Field, Home};
@@ -98,7 +99,14 @@ pub fn lone_expression(text: &str, sink: &mut Diagnostics) -> Option<Expr> {
     let tokens = tokens(text, sink)?;
     shallow(&tokens, sink)?;
     let mut cursor = Cursor::new(tokens, Span::call_site().into(), 0);
-    expression::whole(&mut cursor, sink)
+    let value = expression::expression(&mut cursor, sink)?;
+    if let Some(comma) = cursor.take(",") {
+        let hint = "decimals are written with a point: `1.5`";
+        sink.report(Code::Operator, comma, &[&",", &hint]);
+        return None;
+    }
+    leftover(&mut cursor, sink)?;
+    Some(value)
 }
 
 /// The tokens of the text, if it is made of tokens.

@@ -1,5 +1,6 @@
 //! Literals → exact decimal numbers: `12`, `0.5`, `2.`, `1e-3`, `1_000`.
 
+use super::words::{DEGREES, is_degree};
 use crate::ast::Decimal;
 use crate::diagnostics::{Code, Diagnostics};
 use proc_macro2::Literal;
@@ -24,6 +25,7 @@ pub(super) fn number(literal: &Literal, sink: &mut Diagnostics) -> Option<Decima
             "f64" | "f32" | "i32" | "u32" | "i64" | "u64" | "usize" | "isize" => {
                 format!("numbers are exact and have no type: write `{digits}`")
             }
+            degrees if is_degree(degrees) => DEGREES.to_owned(),
             _ => format!("a product is written with `*`: `{digits}*{suffix}`"),
         };
         sink.report(Code::NumberSuffix, literal.span(), &[&text, &hint]);

@@ -1,7 +1,7 @@
 //! Equations, and conditions that are equations or comparisons.
 
 use super::cursor::Cursor;
-use super::expression::{comparison, expression, invisible, unchained};
+use super::expression::{Advice, comparison, expression, invisible, unchained};
 use super::leftover::leftover;
 use super::words::RELATIONS;
 use crate::ast::{Expr, Premise};
@@ -18,6 +18,11 @@ pub(super) const CHECK: (&str, &str) = (
     "check",
     "what is to be proven is an equation `a == b`; conditions stand behind it: `when a >= b`",
 );
+
+/// Two conditions in the place of a chain.
+pub(super) const AND: &str = "write two conditions: `a <= x and x <= b`";
+/// Of a condition of a check.
+const PREMISE: Advice = ("`a >= b` or `a == b`", AND);
 
 /// `left == right` of a constraint or check; `hint` says what to do where another relation stands.
 pub(super) fn equation(
@@ -50,7 +55,7 @@ pub(super) fn equation(
         return None;
     }
     let right = expression(cursor, sink)?;
-    unchained(cursor, sink)?;
+    unchained(cursor, "write an equation for each", sink)?;
     Some((left, right))
 }
 
@@ -78,7 +83,7 @@ pub(super) fn equation_or_comparison(
     if is_equation {
         equation(cursor, CHECK, sink).map(|(left, right)| Premise::Equal(left, right))
     } else {
-        comparison(cursor, "`a >= b` or `a == b`", sink).map(Premise::AtLeast)
+        comparison(cursor, PREMISE, sink).map(Premise::AtLeast)
     }
 }
 

@@ -117,6 +117,15 @@ pub(super) struct Switch {
     restitution_lowered: bool,
     #[serde(skip_serializing_if = "is_false")]
     ambiguous: bool,
+    /// Impacts that satisfy the law as well.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    other_impacts: Vec<Other>,
+}
+
+#[derive(Serialize)]
+struct Other {
+    state_after: Numbers,
+    impulses: Numbers,
 }
 
 #[derive(Serialize)]
@@ -325,6 +334,14 @@ pub(super) fn switch(outcome: &Outcome, index: usize, event: &Event<f64>) -> Swi
     let description = outcome.description;
     let around = outcome.around.get(index);
     let [before, after] = [0, 1].map(|side| around?[side].as_ref());
+    let others = event.other_impacts.iter().map(|other| Other {
+        state_after: Numbers(named_state(
+            description,
+            &event.state_after.q,
+            &other.v_after,
+        )),
+        impulses: rows(description, &other.impulses),
+    });
     Switch {
         item: event.subject.name(description),
         kind: event.kind.word(),
@@ -341,6 +358,7 @@ pub(super) fn switch(outcome: &Outcome, index: usize, event: &Event<f64>) -> Swi
         impulses: rows(description, &event.impulses),
         restitution_lowered: event.restitution_lowered,
         ambiguous: event.ambiguous,
+        other_impacts: others.collect(),
     }
 }
 
@@ -441,5 +459,60 @@ fn counts(outcome: &Outcome) -> Counts {
         factorizations: work.factorizations,
         projections: work.projections,
         events: outcome.events.len(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::file::scene;
+    use crate::request::Request;
+    use serde_json::Value;
+
+    /// A ball without spin that strikes a corner of two rough walls along its bisector sticks to one and slides along the other: of two ways one is the
+    /// mirror image of the other.
+    #[test]
+    fn the_other_solutions_of_an_impact_are_told() {
+        let declared = "
+            parameters(r = 0.1, reach = 1, mu = 1), coordinates(x, y, phi),
+            kinetic = (der(x)^2 + der(y)^2) / 2 + r^2/5 * der(phi)^2,
+            contact(right: reach - x >= 0, restitution = 1/2), contact(top: reach - y >= 0, restitution = 1/2),
+            friction(side on right: slip = der(y) + r * der(phi), static = mu, kinetic = mu/2),
+            friction(ceiling on top: slip = der(x) - r * der(phi), static = mu, kinetic = mu/2),
+            start(thrown: der(x) = 1, der(y) = 1), until = 1.5,";
+        let scene = scene("corner.lagrange", declared).expect("a declaration");
+        let outcome = scene.run(&Request::default()).expect("a run");
+        let written = |write: &dyn Fn(&mut Vec<u8>)| {
+            let mut bytes = Vec::new();
+            write(&mut bytes);
+            String::from_utf8(bytes).expect("text")
+        };
+        let read = |text: &str| serde_json::from_str::<Value>(text).expect("JSON");
+        let whole = read(&written(&|to| super::write(&outcome, to).expect("memory")));
+        let lines = written(&|to| crate::report::jsonl::write(&outcome, to).expect("memory"));
+        let line = lines.lines().map(read).find(|line| line["type"] == "event");
+        let event = &whole["events"][0];
+        let others = event["other_impacts"].as_array().expect("others");
+        assert_eq!(
+            line.expect("an event")["other_impacts"],
+            event["other_impacts"]
+        );
+        let numbers = |solution: &Value, names: [&str; 7]| {
+            let [velocities, impulses] = ["state_after", "impulses"].map(|of| &solution[of]);
+            let of = |name: &str| velocities.get(name).or(impulses.get(name));
+            names.map(|name| of(name).and_then(Value::as_f64).expect("a number"))
+        };
+        let names = [
+            "der(x)", "der(y)", "right", "top", "side", "ceiling", "der(phi)",
+        ];
+        let in_mirror = [
+            "der(y)", "der(x)", "top", "right", "ceiling", "side", "der(phi)",
+        ];
+        let mut image = numbers(event, in_mirror);
+        image[6] *= -1.0;
+        let is_image = |other: &Value| {
+            let mut pairs = numbers(other, names).into_iter().zip(image);
+            pairs.all(|(one, image)| (one - image).abs() < 1e-9)
+        };
+        assert!(others.iter().any(is_image), "{event:#}");
     }
 }

@@ -308,6 +308,8 @@ fn ways_to_write_it() {
         "normal: conserved energy when closed(shell)",
         "conserved (energy)",
         "conserved 2*energy",
+        "conserved -energy",
+        "normal: conserved -2*energy when closed(shell)",
     ] {
         proven(SHELL, fields, claim);
     }
@@ -365,6 +367,10 @@ fn mistakes_in_writing_are_told() {
         ("m: shell == m*g", "E202"),
         ("conserved der(der(x))", "E404"),
         ("conserved shell", "E404"),
+        (
+            "conserved: energy",
+            "E031 `:` stands in the wrong place; `conserved` is no name: write `conserved energy`",
+        ),
         ("[x, y] == [y, x]", "E302"),
     ] {
         let found = told(check);

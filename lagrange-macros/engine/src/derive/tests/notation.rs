@@ -135,6 +135,7 @@ impl Parser<'_> {
                 let branch = self.system.branches.len();
                 self.system.branches.push(Branch {
                     guard: arguments[0],
+                    declared: arguments[0],
                     then: "if".to_owned(),
                     otherwise: String::new(),
                     span: Span::call_site(),

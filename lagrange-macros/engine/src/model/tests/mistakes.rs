@@ -199,6 +199,88 @@ fn hints_say_what_to_do() {
 }
 
 #[test]
+fn what_is_meant_is_told() {
+    for (items, told) in [
+        (
+            "observe(p = momentum)",
+            "2:13 E206 `momentum` is a function, not a value; write `momentum(…)`",
+        ),
+        (
+            "observe(e = kinetic)",
+            "2:13 E201 `kinetic` is not known; `energy` is the whole energy; a part of it is named where it is declared: `define(part = …), kinetic = part`",
+        ),
+        (
+            "start(s: vx = 1)",
+            "2:10 E201 `vx` is not known; the velocity of `x` is written `der(x)`",
+        ),
+        (
+            "start(s: xx = 1)",
+            "2:10 E201 `xx` is not known; did you mean `x`?",
+        ),
+        (
+            "attitude(body)",
+            "2:14 E001 expected `:` and a name for its four coordinates, `body: q`, found the end",
+        ),
+        (
+            "dissipation(d: x = -a*der(x))",
+            "2:18 E024 `=` is not an operator here; what stands here is one value; a force along a coordinate is an item of its own, `force(name: x = …)`",
+        ),
+        (
+            "coordinates(z[2][3])",
+            "2:17 E031 `[…]` stands in the wrong place; coordinates have one index: a name for each row, `x[3], y[3]`, or one for all, `x[6]`",
+        ),
+    ] {
+        assert_eq!(with(items).err().unwrap(), told, "{items}");
+    }
+    with("define(part = a*x), potential(p: part), force(d: x = -a*der(x)), attitude(body: z), observe(q0 = momentum(x))").unwrap();
+}
+
+/// Branches are looked through in whatever order they are declared: those of another friction that contain those of this one, and the choice between the sides of a
+/// gap.
+#[test]
+fn choices_by_velocities_are_seen_through_others() {
+    let items = "friction(f: slip = der(y), limit = if(der(x) >= 0, a, 2*a)), \
+        friction(h: slip = der(x) - if(t <= 1, a, 2*a), limit = if(der(x) >= if(t <= 1, a, 2*a), a, 2*a))";
+    let said = with(items).err().unwrap();
+    assert!(said.contains("E519"), "{said}");
+    for gap in ["if(der(x) >= 0, y, y + x)", "y + x*sign(der(x))"] {
+        let said = with(&format!("contact(c: {gap} >= 0)")).err().unwrap();
+        assert!(said.contains("E401"), "{gap}: {said}");
+    }
+}
+
+/// What holds is as strong one way as the other; a strength may fall with the slip differently in both directions, and be zero at rest.
+#[test]
+fn a_friction_has_one_strength_at_rest() {
+    let friction =
+        |strength: &str| with(&format!("friction(f: slip = der(x) - der(y), {strength})")).err();
+    for strength in [
+        "limit = if(slip >= 0, 0, a)",
+        "limit = if(der(x) <= der(y), a, 2*a)",
+        "limit = a*(2 + sign(slip))",
+        "limit = a*max(0, sign(-slip))",
+        "normal = a, static = if(slip <= 0, 0.2, 0.3)",
+    ] {
+        let said = friction(strength).unwrap_or_default();
+        let at = format!("2:{} E519", 40 + strength.rfind(" = ").unwrap());
+        assert!(
+            said.starts_with(&at) && said.lines().count() == 1,
+            "{strength}: {said}"
+        );
+    }
+    for strength in [
+        "limit = (2*a, if(slip >= 0, 0, a))",
+        "limit = a*slip*sign(slip)",
+        "limit = if(slip >= 0, a*exp(-slip), a*exp(3*slip))",
+        "limit = if(der(x) >= 0, a, 2*a)",
+        "normal = a, static = 0.2 + 0.1*exp(-abs(slip))",
+        "normal = a, static = 0.4, kinetic = if(slip >= 0, 0.2, 0.3)",
+    ] {
+        assert_eq!(friction(strength), None, "{strength}");
+    }
+}
+
+#[test]
 fn an_equation_between_lists_is_told_how_to_be_written() {
     let found = with("constraint(joint: [x, y] == [y, a] + [a, x])")
         .err()

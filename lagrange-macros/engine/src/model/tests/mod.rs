@@ -5,6 +5,7 @@ use crate::diagnostics::Diagnostics;
 use crate::symbolic::ExprId;
 
 mod bare;
+mod inverse;
 mod items;
 mod mistakes;
 mod structure;

@@ -172,7 +172,18 @@ fn wrong_units_are_told_at_the_term() {
         ),
         ("define(u = [x, y] + [l, 1])", "3:21 E705 "),
         ("define(u = dot([x, theta], [y, y]))", "3:12 E705 "),
-        ("observe(o = min(x, der(y)))", "3:20 E705 "),
+        (
+            "observe(o = min(x, der(y)))",
+            "3:20 E708 chooses between m and m/s; is there a `der(…)` too many?",
+        ),
+        (
+            "force(p: x = f*min(1, t/1))",
+            "3:20 E708 chooses between s and a plain number; a number has no unit: make it a field with `#[lagrange(unit = \"s\")]`",
+        ),
+        (
+            "potential = f*if(x >= l, x, 1)",
+            "3:29 E708 chooses between m and a plain number; a number has no unit: make it a field with `#[lagrange(unit = \"m\")]`",
+        ),
         ("stop(s: x >= 0 and theta >= l)", "3:29 E706 "),
         (
             "friction(s: slip = der(theta), limit = f)",
@@ -268,6 +279,26 @@ fn energies_per_mass_are_remarked() {
             .unwrap()
             .starts_with("3:19 E704 a kinetic energy is in J, and this is in m²/s²")
     );
+    // A mistake elsewhere does not make the energies wrong, and is told alone.
+    for (from, to, told) in [
+        (
+            "x == y",
+            "x == y + 1",
+            "5:35 E705 adds a plain number to m; ",
+        ),
+        ("der(y)^2", "y^2", "3:31 E705 adds m² to m²/s²; "),
+        (
+            "x == y)",
+            "x == y), start(s: x = mu)",
+            "5:48 E704 `x` is in m, and this is in m³/s²; ",
+        ),
+    ] {
+        let said = read(&orbit.replace(from, to)).err().unwrap();
+        assert!(
+            said.starts_with(told) && said.lines().count() == 1,
+            "{said}"
+        );
+    }
 }
 
 #[test]

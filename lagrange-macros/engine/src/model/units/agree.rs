@@ -36,8 +36,13 @@ impl Checker<'_, '_> {
         None
     }
 
-    /// Values of one unit. Those that can be read are compared even if others cannot.
-    pub(super) fn terms(&mut self, terms: &[&Expr], hint: Option<&Quantity>) -> Option<Shape> {
+    /// Values of one unit; `code` says what is done with them. Those that can be read are compared even if others cannot.
+    pub(super) fn terms(
+        &mut self,
+        code: Code,
+        terms: &[&Expr],
+        hint: Option<&Quantity>,
+    ) -> Option<Shape> {
         let found: Vec<(&Expr, Option<Shape>)> = terms
             .iter()
             .map(|&term| (term, self.shape(term, hint)))
@@ -47,12 +52,13 @@ impl Checker<'_, '_> {
             .into_iter()
             .filter_map(|(term, shape)| Some((term, shape?)))
             .unzip();
-        self.sum(&terms, shapes, hint).filter(|_| complete)
+        self.alike(code, &terms, shapes, hint).filter(|_| complete)
     }
 
-    /// Units that must agree: of terms, or of the sides of a condition.
-    pub(super) fn sum(
+    /// Units that must agree: of terms, or of values of which one is chosen.
+    pub(super) fn alike(
         &mut self,
+        code: Code,
         terms: &[&Expr],
         shapes: Vec<Shape>,
         hint: Option<&Quantity>,
@@ -69,11 +75,8 @@ impl Checker<'_, '_> {
                 if let Some((reference, found)) = self.unknowns.conflict(&reference, quantity) {
                     let remedy = self.remedy(&reference, &found, term);
                     let (found, reference) = (self.noun(&found), self.noun(&reference));
-                    self.sink.report(
-                        Code::UnitsAdded,
-                        term.extent,
-                        &[&found, &reference, &remedy],
-                    );
+                    self.sink
+                        .report(code, term.extent, &[&found, &reference, &remedy]);
                     fine = false;
                     break;
                 }

@@ -42,7 +42,7 @@ impl Checker<'_, '_> {
             }
             ("min" | "max", several) => {
                 let terms: Vec<&Expr> = several.iter().collect();
-                self.terms(&terms, hint)
+                self.terms(Code::UnitsChosen, &terms, hint)
             }
             ("dot" | "cross" | "norm", lists) => self.of_lists(name, lists),
             ("gap" | "slip" | "momentum", [inner]) => {

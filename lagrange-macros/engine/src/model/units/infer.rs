@@ -7,6 +7,7 @@ use super::dimension::Dimension;
 use super::quantity::Quantity;
 use super::shape::{Role, Shape};
 use crate::ast::{Expr, ExprKind, Factor, Index};
+use crate::diagnostics::Code;
 use crate::model::depth::{Context, Reach};
 use crate::symbolic::Rational;
 
@@ -49,7 +50,7 @@ impl Checker<'_, '_> {
             ExprKind::Name(name) => self.name(name),
             ExprKind::Sum(terms) => {
                 let terms: Vec<&Expr> = terms.iter().map(|(_, term)| term).collect();
-                self.terms(&terms, hint)
+                self.terms(Code::UnitsAdded, &terms, hint)
             }
             ExprKind::Product(factors) => self.product(factors, hint),
             ExprKind::Negative(inner) => self.shape(inner, hint),
@@ -67,7 +68,7 @@ impl Checker<'_, '_> {
                     );
                 }
                 self.comparison(condition)?;
-                self.terms(&[then, otherwise], hint)
+                self.terms(Code::UnitsChosen, &[then, otherwise], hint)
             }
             ExprKind::SumOver(index, body) => self.sum_over(index, body, hint),
             ExprKind::ListOver(index, body) => self.each_of(index, body, hint).map(Shape::List),
@@ -189,6 +190,6 @@ impl Checker<'_, '_> {
             return Some(Shape::One(self.unknowns.fresh("0")));
         }
         let bodies = vec![body; shapes.len()];
-        self.sum(&bodies, shapes, hint)
+        self.alike(Code::UnitsAdded, &bodies, shapes, hint)
     }
 }

@@ -6,7 +6,8 @@
 //!   of; what stays free fits everything.
 //! * Numbers are plain numbers, `0` fits everything, `t` is in s, angles are plain numbers. In starts, stops, marks and
 //!   regions, which describe a run, a value that is nothing but a number is in the unit that belongs there.
-//! * Energies are in J. Where no given unit contains kg, they may all be per unit of mass instead (a hint says so).
+//! * Energies are in J. Where no given unit contains kg, they may all be per unit of mass instead (a hint says so); of two readings with mistakes
+//!   the one with fewer is told.
 //! * Units are coherent: a multiple like `mm` is refused, since numbers are never converted.
 
 mod agree;
@@ -76,18 +77,25 @@ impl Elaboration<'_> {
             return;
         }
         let per_mass = !dimensions().any(Dimension::has_mass);
-        let mistakes = self.check_units(declaration, &given, false);
+        let mut mistakes = self.check_units(declaration, &given, false);
         if mistakes.is_empty() {
             return;
         }
-        if per_mass && self.check_units(declaration, &given, true).is_empty() {
-            let text = format!(
-                "energies are in {}, not in J; forces are in units that follow from that",
-                self.system.units.energy
-            );
-            let extent = (&declaration.name).into();
-            self.system.hints.push(Hint { text, extent });
-            return;
+        if per_mass {
+            let others = self.check_units(declaration, &given, true);
+            if others.is_empty() {
+                let text = format!(
+                    "energies are in {}, not in J; forces are in units that follow from that",
+                    self.system.units.energy
+                );
+                let extent = (&declaration.name).into();
+                self.system.hints.push(Hint { text, extent });
+                return;
+            }
+            // What is meant is the reading with fewer mistakes: a single one elsewhere does not make the energies wrong.
+            if others.count() < mistakes.count() {
+                mistakes = others;
+            }
         }
         self.sink.append(mistakes);
     }

@@ -55,7 +55,7 @@ impl Checker<'_, '_> {
         let Some(factor) = self.unknowns.dimension(&factor) else {
             let units = match self.elaboration.home {
                 Home::Struct => "`#[lagrange(unit = \"…\")]` on fields",
-                Home::File => "`parameters(mass: \"kg\" = 1)`",
+                Home::File | Home::Line => "`parameters(mass: \"kg\" = 1)`",
             };
             return format!("units are {units}, and `coordinates(x: \"m\")`");
         };

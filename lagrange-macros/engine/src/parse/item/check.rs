@@ -10,6 +10,9 @@ use crate::ast::{Check, Claim, ItemKind, Premise};
 use crate::diagnostics::{Code, Diagnostics, Extent};
 use proc_macro2::{Delimiter, TokenTree};
 
+/// The word before a quantity that is claimed to stay; no name is called so.
+const CONSERVED: &str = "conserved";
+
 /// `name: a == b when …`, name and condition as the user likes.
 pub(super) fn check(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<ItemKind> {
     let (first, others) = parts.split_first_mut()?;
@@ -49,7 +52,7 @@ pub(super) fn check(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<It
 /// Whether `name:` or `name[…]:` is ahead.
 fn is_named(part: &Cursor) -> bool {
     let colon = |token: Option<TokenTree>| matches!(token, Some(TokenTree::Punct(punct)) if punct.as_char() == ':');
-    if part.word().is_none() {
+    if part.word().is_none_or(|word| word.text == CONSERVED) {
         return false;
     }
     let mut ahead = part.clone();
@@ -59,16 +62,18 @@ fn is_named(part: &Cursor) -> bool {
 }
 
 fn claim(part: &mut Cursor, sink: &mut Diagnostics) -> Option<Claim> {
-    // A quantity of that name would be followed by an operator.
-    let prefix = part.word().is_some_and(|word| word.text == "conserved")
-        && !matches!(part.second(), None | Some(TokenTree::Punct(_)));
-    if prefix {
-        part.next();
+    if part.take_word(CONSERVED).is_some() {
+        if let Some(colon) = part.take(":") {
+            let hint = "`conserved` is no name: write `conserved energy`, or with a name `name: conserved energy`";
+            sink.report(Code::Misplaced, colon, &[&":", &hint]);
+            part.skip_all();
+            return None;
+        }
         return expression(part, sink).map(Claim::Conserved);
     }
     if let Some(word) = conserved_behind(part) {
         let hint = "the word stands before the quantity: `conserved energy`";
-        sink.report(Code::Misplaced, word, &[&"conserved", &hint]);
+        sink.report(Code::Misplaced, word, &[&CONSERVED, &hint]);
         part.skip_all();
         return None;
     }
@@ -80,7 +85,7 @@ fn conserved_behind(part: &Cursor) -> Option<Extent> {
     let mut ahead = part.clone();
     ahead.next();
     while !ahead.is_at_end() && ahead.operator().is_none() {
-        if ahead.word().is_some_and(|word| word.text == "conserved") {
+        if ahead.word().is_some_and(|word| word.text == CONSERVED) {
             return Some(ahead.here());
         }
         ahead.next();

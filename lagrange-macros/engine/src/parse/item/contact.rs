@@ -1,7 +1,7 @@
 //! `constraint`, `contact`, `friction`.
 
 use super::super::cursor::Cursor;
-use super::super::expression::{comparison, expression, whole};
+use super::super::expression::{Advice, comparison, expression, whole};
 use super::super::leftover::leftover;
 use super::super::relation::{CONSTRAINT, equation};
 use super::{head, head_and_colon, key, named, no_more, once, reference};
@@ -11,6 +11,12 @@ use crate::ast::{
 };
 use crate::diagnostics::{Code, Diagnostics};
 use proc_macro2::Delimiter;
+
+const GAP: Advice = ("`gap >= 0`", "write a contact for each");
+const REGION: Advice = (
+    "`where c >= d`",
+    "a region is one comparison: for `a <= x <= b` write `where min(x - a, b - x) >= 0`",
+);
 
 /// `name: a == b` or `name while contact: a == b`
 pub(super) fn constraint(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<ItemKind> {
@@ -63,7 +69,7 @@ fn gap(
     part: &mut Cursor,
     sink: &mut Diagnostics,
 ) -> Option<(Comparison, Option<crate::ast::Expr>)> {
-    let gap = comparison(part, "`gap >= 0`", sink)?;
+    let gap = comparison(part, GAP, sink)?;
     let at = match part.take_word("at") {
         None => None,
         Some(_) => Some(expression(part, sink)?),
@@ -79,7 +85,7 @@ fn contact_part(
     sink: &mut Diagnostics,
 ) -> Option<()> {
     if let Some(word) = part.take_word("where") {
-        let found = comparison(part, "`where c >= d`", sink)?;
+        let found = comparison(part, REGION, sink)?;
         once(region, found, &word, sink);
         if let Some(and) = part.take_word("and") {
             let hint = "a region is one comparison; for two write `where min(a, b) >= 0`";

@@ -208,7 +208,14 @@ fn grouped(
 /// `body: q`
 fn attitude(part: &mut Cursor, sink: &mut Diagnostics) -> Option<ItemKind> {
     let body = part.name("the name of a body", sink)?;
-    part.require(":", sink)?;
+    if part.take(":").is_none() {
+        let what = format!(
+            "`:` and a name for its four coordinates, `{}: q`",
+            body.text
+        );
+        part.expected(&what, sink);
+        return None;
+    }
     let coordinates = part.name("the name of its coordinates", sink)?;
     leftover(part, sink)?;
     Some(ItemKind::Attitude(Attitude { body, coordinates }))

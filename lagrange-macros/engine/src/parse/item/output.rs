@@ -1,9 +1,9 @@
 //! `observe`, `stop`, `mark`.
 
 use super::super::cursor::Cursor;
-use super::super::expression::{comparison, whole};
+use super::super::expression::{Advice, comparison, whole};
 use super::super::leftover::leftover;
-use super::super::relation::holds_relation;
+use super::super::relation::{AND, holds_relation};
 use super::{head, head_and_colon, no_more, reference};
 use crate::ast::{Clause, ItemKind, ModeWord, Observe, Reference, Trigger, Watch};
 use crate::diagnostics::{Code, Diagnostics};
@@ -43,9 +43,10 @@ pub(super) fn watch(
             "mark" => "`a >= b`, or an expression alone, whose zeros are marked",
             _ => "`a >= b`",
         };
-        let mut clauses = vec![clause(first, example, sink)?];
+        let advice = (example, AND);
+        let mut clauses = vec![clause(first, advice, sink)?];
         while first.take_word("and").is_some() {
-            clauses.push(clause(first, example, sink)?);
+            clauses.push(clause(first, advice, sink)?);
         }
         leftover(first, sink)?;
         Trigger::All(clauses)
@@ -71,10 +72,10 @@ fn mode(part: &Cursor) -> Option<ModeWord> {
     called.then_some(found.1)
 }
 
-fn clause(part: &mut Cursor, example: &str, sink: &mut Diagnostics) -> Option<Clause> {
+fn clause(part: &mut Cursor, advice: Advice, sink: &mut Diagnostics) -> Option<Clause> {
     match mode_clause(part, sink) {
         Some(clause) => clause.map(|(word, item)| Clause::Mode(word, item)),
-        None => comparison(part, example, sink).map(Clause::Comparison),
+        None => comparison(part, advice, sink).map(Clause::Comparison),
     }
 }
 

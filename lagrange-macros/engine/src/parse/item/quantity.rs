@@ -1,7 +1,7 @@
 //! `coordinates`, `define`, `kinetic`, `potential`, `dissipation`.
 
 use super::super::cursor::Cursor;
-use super::super::expression::whole;
+use super::super::expression::{expression, whole};
 use super::super::leftover::leftover;
 use super::{head, head_and_colon, no_more, text};
 use crate::ast::{Coordinate, Definition, Dissipation, Energy, Expr, ItemKind, Unit};
@@ -39,6 +39,11 @@ pub(super) fn coordinates(parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<
         };
         if let Some(next) = part.word() {
             sink.report(Code::MissingComma, &next, &[&next.text]);
+            return None;
+        }
+        if part.group(Delimiter::Bracket).is_some() {
+            let hint = "coordinates have one index: a name for each row, `x[3], y[3]`, or one for all, `x[6]`";
+            sink.report(Code::Misplaced, part.here(), &[&"[…]", &hint]);
             return None;
         }
         leftover(part, sink)?;
@@ -79,7 +84,13 @@ pub(super) fn named_energy(
 ) -> Option<ItemKind> {
     let (first, others) = parts.split_first_mut()?;
     let head = head_and_colon(first, keyword, "a name, as in `name: …`", sink)?;
-    let value = whole(first, sink)?;
+    let value = expression(first, sink)?;
+    if let Some(equals) = first.take("=") {
+        let hint = "what stands here is one value; a force along a coordinate is an item of its own, `force(name: x = …)`";
+        sink.report(Code::Operator, equals, &[&"=", &hint]);
+        return None;
+    }
+    leftover(first, sink)?;
     no_more(others, keyword, "write an item for each term", sink)?;
     Some(match keyword {
         "dissipation" => ItemKind::Dissipation(Dissipation { head, value }),

@@ -33,6 +33,7 @@ pub fn random_equations(dice: &mut Dice) -> (Equations, Vec<Symbol>) {
         let guard = system.pool.leaf(system.time);
         system.branches.push(Branch {
             guard,
+            declared: guard,
             then: text.to_owned(),
             otherwise: String::new(),
             span: Span::call_site(),

@@ -22,8 +22,11 @@ pub(super) use decimals::Decimals;
 /// Columns of the page.
 pub(super) const WIDTH: u16 = 100;
 
-/// What the Jacobi integral is, said where it is not the energy.
-const JACOBI: &str = "The works above change the Jacobi integral, not T + V: something moves as it is told to, and what it does to T + V has no line.";
+/// What the Jacobi integral is, said where it is not the energy: below works, and where none is listed.
+const JACOBI: [&str; 2] = [
+    "The works above change the Jacobi integral, not T + V: something moves as it is told to, and what it does to T + V has no line.",
+    "The Jacobi integral stays, not T + V: something moves as it is told to, and what it does to T + V has no line.",
+];
 
 /// Writes the story of `outcome`.
 pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
@@ -57,15 +60,19 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
             told.join(", ")
         )?;
     }
-    if let Some(choice) = choices(outcome) {
-        writeln!(out, "\n{choice}")?;
+    for told in [MOTION, IMPACT, UNKNOWN]
+        .into_iter()
+        .filter_map(|kind| told_of(kind, outcome))
+    {
+        writeln!(out, "\n{told}")?;
     }
     if let Some(stiffness) = outcome.stiffness() {
         writeln!(out, "\n{stiffness}")?;
     }
     if let Some(ledger) = &outcome.ledger {
         let unit = outcome.description.units.energy;
-        writeln!(out, "\n{}", energy(ledger, unit).trim_fmt())?;
+        let (energy, works) = energy(ledger, unit);
+        writeln!(out, "\n{}", energy.trim_fmt())?;
         writeln!(
             out,
             "The ledger{} closes to {:.1e} of its scale, {}{}{unit}.",
@@ -78,7 +85,7 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
             if unit.is_empty() { "" } else { " " }
         )?;
         if ledger.has_own_jacobi() {
-            writeln!(out, "{JACOBI}")?;
+            writeln!(out, "{}", JACOBI[usize::from(works == 0)])?;
         }
     }
     if let Some(estimate) = &outcome.estimate {
@@ -90,12 +97,35 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
     writeln!(out, "\n{}", work(outcome))
 }
 
-/// Where the motion could have gone on in another way, if anywhere.
-fn choices(outcome: &Outcome) -> Option<String> {
+/// Of what a run takes one of several, and where the others are told.
+type Choice = (&'static str, &'static str);
+
+const MOTION: Choice = ("motion", ", `lagrange modes` lists all");
+const IMPACT: Choice = (
+    "impact",
+    ", `--format json` has the others as `other_impacts`",
+);
+/// Of impacts in turn and of Poisson's law.
+const UNKNOWN: Choice = ("impact", ", and the others are not known");
+
+fn choice(event: &Event<f64>) -> Choice {
+    match event.kind {
+        EventKind::Impact if event.other_impacts.is_empty() => UNKNOWN,
+        EventKind::Impact => IMPACT,
+        _ => MOTION,
+    }
+}
+
+/// Where a run could have gone on in another way of this kind, if anywhere.
+fn told_of(kind: Choice, outcome: &Outcome) -> Option<String> {
     let groups = instants(&outcome.events);
     let mut open: Vec<String> = groups
         .iter()
-        .filter(|(_, group)| group.iter().any(|event| event.ambiguous))
+        .filter(|(_, group)| {
+            group
+                .iter()
+                .any(|event| event.ambiguous && choice(event) == kind)
+        })
         .map(|(_, group)| format!("t = {} s", time(group[0].time, outcome.lasts())))
         .collect();
     open.dedup();
@@ -108,8 +138,9 @@ fn choices(outcome: &Outcome) -> Option<String> {
         more => format!(" and {more} times more"),
     };
     let at = open[..told].join(", ");
+    let (what, others) = kind;
     (told > 0).then(|| {
-        format!("More than one motion is possible at {at}{more}: a run takes one, `lagrange modes` lists all.")
+        format!("More than one {what} is possible at {at}{more}: a run takes one{others}.")
     })
 }
 
@@ -122,7 +153,8 @@ pub(super) fn impulse_unit(force: &str) -> String {
     }
 }
 
-fn energy(ledger: &Ledger, unit: &str) -> Table {
+/// The ledger, and how many works are listed in it.
+fn energy(ledger: &Ledger, unit: &str) -> (Table, usize) {
     let (start, end) = (&ledger.start, &ledger.end);
     let mut lines = vec![
         ("kinetic", start.kinetic, end.kinetic),
@@ -168,7 +200,7 @@ fn energy(ledger: &Ledger, unit: &str) -> Table {
     for column in table.column_iter_mut().skip(1) {
         column.set_cell_alignment(CellAlignment::Right);
     }
-    table
+    (table, shown.len())
 }
 
 fn work(outcome: &Outcome) -> String {
@@ -243,7 +275,10 @@ mod tests {
         assert!(lines.contains(&own), "{own}\n{lines:#?}");
         let closes = "The ledger of the Jacobi integral closes to";
         assert!(lines.iter().any(|line| line.starts_with(closes)));
-        assert!(lines.iter().any(|line| line == super::JACOBI));
+        let said = |lines: &[String]| super::JACOBI.map(|it| lines.iter().any(|line| line == it));
+        assert_eq!(said(&lines), [false, true]);
+        let pushed = story(&declared.replace("start", "force(push: theta = 1), start"));
+        assert_eq!(said(&pushed), [true, false], "{pushed:#?}");
         let still = story(&declared.replace("rate = 3", "rate = 0"));
         assert!(still.iter().all(|line| !line.contains("Jacobi")));
     }
@@ -330,6 +365,39 @@ mod tests {
             "{lines:#?}"
         );
         assert!(lines.iter().all(|line| !line.starts_with("Not determined")));
+    }
+
+    /// A ball without spin that strikes a corner of two rough walls along its bisector: which of its frictions sticks nothing says.
+    #[test]
+    fn where_the_other_impacts_are_is_told() {
+        let corner = "
+            parameters(r = 0.1, reach = 1, mu = 1), coordinates(x, y, phi),
+            kinetic = (der(x)^2 + der(y)^2) / 2 + r^2/5 * der(phi)^2,
+            contact(right: reach - x >= 0, restitution = 1/2), contact(top: reach - y >= 0, restitution = 1/2),
+            friction(side on right: slip = der(y) + r * der(phi), static = mu, kinetic = mu/2),
+            friction(ceiling on top: slip = der(x) - r * der(phi), static = mu, kinetic = mu/2),
+            start(thrown: der(x) = 1, der(y) = 1), until = 1.5,";
+        let said = |declared: &str| {
+            let mut lines = story(declared);
+            lines.retain(|line| line.starts_with("More than one"));
+            lines.join("\n")
+        };
+        assert_eq!(
+            said(corner),
+            "More than one impact is possible at t = 1.000000 s: a run takes one, `--format json` has the others as `other_impacts`."
+        );
+        assert_eq!(said(&corner.replace("mu = 1", "mu = 0")), "");
+        // Nobody knows the others of a wheel that jams at a kerb by Poisson's law.
+        let kerb = "
+            parameters(r = 0.3, h = 0.1, mu = 5), coordinates(x, y, phi), define(d = sqrt(x^2 + (y - h)^2)),
+            kinetic = (der(x)^2 + der(y)^2 + r^2/2 * der(phi)^2) / 2, contact(floor: y >= r), contact(edge: d >= r, restitution = poisson(0)),
+            friction(under on floor: slip = der(x) - r * der(phi), static = mu),
+            friction(fore on edge: slip = ((y - h) * der(x) - x * der(y)) / d - r * der(phi), static = mu),
+            start(rolling: x = -1, y = r, der(x) = 1, der(phi) = 1/r), until = 0.8,";
+        assert_eq!(
+            said(kerb),
+            "More than one impact is possible at t = 0.776393 s: a run takes one, and the others are not known."
+        );
     }
 
     /// Two blocks that are pulled too hard, and one that is not: nobody sees the two stick, and 10 N on 2 N of friction are 4 m in a second.
