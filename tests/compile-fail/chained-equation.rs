@@ -6,4 +6,4 @@
     constraint(rod: x == y == 1),
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
-//~ 6:28 E014 comparisons do not chain; write two items, or of a stop or mark two conditions: `a <= x and x <= b`
+//~ 6:28 E014 comparisons do not chain; write an equation for each

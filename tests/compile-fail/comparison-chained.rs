@@ -6,4 +6,4 @@
     stop(edge: 0 <= x <= 1),
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
-//~ 6:23 E014 comparisons do not chain; write two items, or of a stop or mark two conditions: `a <= x and x <= b`
+//~ 6:23 E014 comparisons do not chain; write two conditions: `a <= x and x <= b`

@@ -271,7 +271,7 @@ fn a_gap_that_jumps_below_zero_is_an_error() {
 #[lagrange(
     coordinates(x),
     kinetic = der(x)^2 / 2,
-    stop(root: sqrt(1 + x) >= 5),
+    stop(level: ln(1 + x) >= 5),
 )]
 struct Domain {
     _unit: f64,
@@ -289,7 +289,7 @@ fn a_watch_that_is_no_number_any_more_is_named() {
         panic!("{failure:?}");
     };
     agree("time", time, 1.0, 1e-10);
-    assert_eq!(what, "the guard of `root`");
+    assert_eq!(what, "the guard of `level`");
 }
 
 /// A mass passes the narrow beam of a light barrier: what reads it is close to 0 before and to 1 beyond, and stops the run halfway.

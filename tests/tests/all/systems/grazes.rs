@@ -19,6 +19,53 @@ struct Leg {
     mass: f64,
 }
 
+/// The same with a force that pushes the upper rod, and no knee.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(a, b),
+    kinetic = (upper * der(a))^2 / 2 + mass/2 * (der(upper * sin(a) + lower * sin(b))^2 + der(upper * cos(a) + lower * cos(b))^2),
+    potential = -10 * upper * cos(a) - mass * 10 * (upper * cos(a) + lower * cos(b)),
+    force(side: a = push),
+    contact(floor: upper + lower - upper * cos(a) - lower * cos(b) >= 0),
+)]
+struct Pushed {
+    upper: f64,
+    lower: f64,
+    mass: f64,
+    push: f64,
+}
+
+/// It hangs straight down on the floor and is pushed aside: the floor carries nothing and holds nothing.
+#[test]
+fn what_hangs_down_to_the_floor_swings_off() {
+    for (upper, lower, mass, push) in [
+        (1.0, 0.5, 1.0, 0.0),
+        (0.4, 0.7, 2.0, 0.6),
+        (0.6, 0.3, 0.5, 1.5),
+    ] {
+        let leg = Pushed {
+            upper,
+            lower,
+            mass,
+            push: 2.0,
+        };
+        for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-9]) {
+            let start = || state(&[0.0; 2], &[0.0, push]);
+            let simulation = Simulation::new(&leg).method(method).tolerance(tolerance);
+            let free = simulation.effects(Effects::all().without(Pushed::FLOOR));
+            let free = free.run(start(), 0.0..0.4).expect("a run");
+            let run = run_by(&leg, (method, tolerance), start(), 0.4);
+            let what = format!("{leg:?} by {method}");
+            all_agree(
+                what,
+                &run.final_state().q,
+                &free.final_state().q,
+                20.0 * tolerance,
+            );
+        }
+    }
+}
+
 /// Straight down both rods touch the floor at the instant at which the lower one swings ahead: the floor changes nothing.
 #[test]
 fn a_floor_as_low_as_a_leg_reaches_is_grazed() {
@@ -38,6 +85,61 @@ fn a_floor_as_low_as_a_leg_reaches_is_grazed() {
             let run = run_by(&leg, (method, tolerance), start(), 1.0);
             let what = format!("{leg:?} by {method}");
             all_agree(what, &run.final_state().q, &free.final_state().q, 1e-7);
+        }
+    }
+}
+
+/// A bob on a rod in the plane: the rod alone determines how high it is where it hangs.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = 10 * y,
+    constraint(rod: x^2 + y^2 == length^2),
+    contact(floor: y >= depth - length, restitution = bounce),
+    contact(wall: x <= length, restitution = bounce),
+)]
+struct Bob {
+    length: f64,
+    depth: f64,
+    bounce: f64,
+}
+
+/// A floor as low as it reaches changes nothing, nor does a wall that it touches where it is held aside; a higher floor is hit.
+#[test]
+fn a_bob_swings_past_what_it_only_touches() {
+    for (length, bounce, angle) in [
+        (0.5, 0.5, 0.4),
+        (1.0, 0.0, -0.7),
+        (0.83, 1.0, 1.2),
+        (2.0, 0.3, core::f64::consts::FRAC_PI_2),
+    ] {
+        let bob = Bob {
+            length,
+            depth: 0.0,
+            bounce,
+        };
+        let higher = Bob {
+            depth: 1e-5 * length,
+            ..bob.clone()
+        };
+        for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-9]) {
+            let start = || state(&[length * angle.sin(), -length * angle.cos()], &[0.0; 2]);
+            let simulation = Simulation::new(&bob).method(method).tolerance(tolerance);
+            let without = Effects::all().without(Bob::FLOOR).without(Bob::WALL);
+            let free = simulation.effects(without);
+            let free = free.run(start(), 0.0..3.0).expect("a run");
+            let run = run_by(&bob, (method, tolerance), start(), 3.0);
+            let what = format!("{bob:?} by {method}");
+            assert!(run.events().is_empty(), "{what}");
+            all_agree(
+                &what,
+                &run.final_state().q,
+                &free.final_state().q,
+                100.0 * tolerance,
+            );
+            let run = run_by(&higher, (method, tolerance), start(), 3.0);
+            assert!(!run.events().is_empty(), "{what}: hits");
         }
     }
 }
