@@ -33,7 +33,7 @@ const OTHERS: [Part; 6] = [
     ("series", &["::begin_series", "::end_series"]),
     ("right-hand sides", &["Dynamics<T>>::value"]),
     ("decision", &["Decider<T>::decide_with"]),
-    ("rest of a switch", &["Run<T>>::switch"]),
+    ("rest of a switch", &["Run<T>>::leave_mode"]),
     ("rest of the start", &["Run<T>>::launch"]),
     (
         "change of parameters",
