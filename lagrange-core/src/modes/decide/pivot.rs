@@ -54,11 +54,7 @@ impl<T: Scalar> Decider<T> {
         if let [Guard::Slip(f)] = here.facts.located[..] {
             let mut turns = near.clone();
             turns.frictions[f] = turned_round(here.present.frictions[f]);
-            self.sticks_first = true;
-            let mut either = [&near, &turns].into_iter();
-            let taken = either.any(|mode| self.takes(dynamics, table, here, mode));
-            self.sticks_first = false;
-            if taken {
+            if self.takes_first_of(dynamics, table, here, [near.clone(), turns]) {
                 return Ok(true);
             }
         }
@@ -106,8 +102,20 @@ impl<T: Scalar> Decider<T> {
             mode.frictions[f] = slide(direction, 1.0);
             mode
         });
-        let mut modes = core::iter::once(near.clone()).chain(modes);
+        let modes = core::iter::once(near.clone()).chain(modes);
+        self.takes_first_of(dynamics, table, here, modes)
+    }
+
+    /// Takes the first of these modes that is feasible, if one is. What would slip in it and yet stay at rest must stick.
+    fn takes_first_of(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        table: &mut Table,
+        here: SwitchContext<'_, T>,
+        modes: impl IntoIterator<Item = Mode>,
+    ) -> bool {
         self.sticks_first = true;
+        let mut modes = modes.into_iter();
         let found = modes.any(|mode| self.takes(dynamics, table, here, &mode));
         self.sticks_first = false;
         found

@@ -465,21 +465,14 @@ fn counts(outcome: &Outcome) -> Counts {
 #[cfg(test)]
 mod tests {
     use crate::file::scene;
+    use crate::report::CORNER;
     use crate::request::Request;
     use serde_json::Value;
 
-    /// A ball without spin that strikes a corner of two rough walls along its bisector sticks to one and slides along the other: of two ways one is the
-    /// mirror image of the other.
+    /// The ball sticks to one wall and slides along the other: of two ways one is the mirror image of the other.
     #[test]
     fn the_other_solutions_of_an_impact_are_told() {
-        let declared = "
-            parameters(r = 0.1, reach = 1, mu = 1), coordinates(x, y, phi),
-            kinetic = (der(x)^2 + der(y)^2) / 2 + r^2/5 * der(phi)^2,
-            contact(right: reach - x >= 0, restitution = 1/2), contact(top: reach - y >= 0, restitution = 1/2),
-            friction(side on right: slip = der(y) + r * der(phi), static = mu, kinetic = mu/2),
-            friction(ceiling on top: slip = der(x) - r * der(phi), static = mu, kinetic = mu/2),
-            start(thrown: der(x) = 1, der(y) = 1), until = 1.5,";
-        let scene = scene("corner.lagrange", declared).expect("a declaration");
+        let scene = scene("corner.lagrange", CORNER).expect("a declaration");
         let outcome = scene.run(&Request::default()).expect("a run");
         let written = |write: &dyn Fn(&mut Vec<u8>)| {
             let mut bytes = Vec::new();

@@ -126,6 +126,16 @@ pub(crate) fn significant(x: f64) -> f64 {
     format!("{x:.5e}").parse().unwrap_or(0.0)
 }
 
+/// A ball without spin that strikes a corner of two rough walls along its bisector: its impact has two solutions.
+#[cfg(test)]
+const CORNER: &str = "
+    parameters(r = 0.1, reach = 1, mu = 1), coordinates(x, y, phi),
+    kinetic = (der(x)^2 + der(y)^2) / 2 + r^2/5 * der(phi)^2,
+    contact(right: reach - x >= 0, restitution = 1/2), contact(top: reach - y >= 0, restitution = 1/2),
+    friction(side on right: slip = der(y) + r * der(phi), static = mu, kinetic = mu/2),
+    friction(ceiling on top: slip = der(x) - r * der(phi), static = mu, kinetic = mu/2),
+    start(thrown: der(x) = 1, der(y) = 1), until = 1.5,";
+
 #[cfg(test)]
 mod tests {
     use super::significant;

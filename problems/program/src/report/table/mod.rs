@@ -248,6 +248,7 @@ pub(super) fn page() -> Table {
 mod tests {
     use super::{Decimals, time};
     use crate::file::scene;
+    use crate::report::CORNER;
     use crate::request::Request;
 
     /// The story of a run, with single blanks.
@@ -367,26 +368,19 @@ mod tests {
         assert!(lines.iter().all(|line| !line.starts_with("Not determined")));
     }
 
-    /// A ball without spin that strikes a corner of two rough walls along its bisector: which of its frictions sticks nothing says.
+    /// Which of the ball's frictions sticks nothing says.
     #[test]
     fn where_the_other_impacts_are_is_told() {
-        let corner = "
-            parameters(r = 0.1, reach = 1, mu = 1), coordinates(x, y, phi),
-            kinetic = (der(x)^2 + der(y)^2) / 2 + r^2/5 * der(phi)^2,
-            contact(right: reach - x >= 0, restitution = 1/2), contact(top: reach - y >= 0, restitution = 1/2),
-            friction(side on right: slip = der(y) + r * der(phi), static = mu, kinetic = mu/2),
-            friction(ceiling on top: slip = der(x) - r * der(phi), static = mu, kinetic = mu/2),
-            start(thrown: der(x) = 1, der(y) = 1), until = 1.5,";
         let said = |declared: &str| {
             let mut lines = story(declared);
             lines.retain(|line| line.starts_with("More than one"));
             lines.join("\n")
         };
         assert_eq!(
-            said(corner),
+            said(CORNER),
             "More than one impact is possible at t = 1.000000 s: a run takes one, `--format json` has the others as `other_impacts`."
         );
-        assert_eq!(said(&corner.replace("mu = 1", "mu = 0")), "");
+        assert_eq!(said(&CORNER.replace("mu = 1", "mu = 0")), "");
         // Nobody knows the others of a wheel that jams at a kerb by Poisson's law.
         let kerb = "
             parameters(r = 0.3, h = 0.1, mu = 5), coordinates(x, y, phi), define(d = sqrt(x^2 + (y - h)^2)),
