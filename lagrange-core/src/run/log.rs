@@ -131,6 +131,8 @@ impl<T: Scalar> Run<T> {
             let kind = match (before.frictions[f], after.frictions[f]) {
                 (FrictionMode::Stick, FrictionMode::Slip(_)) => EventKind::Slips,
                 (FrictionMode::Slip(_), FrictionMode::Stick) => EventKind::Sticks,
+                // What has only begun, and begins anew, had no direction yet.
+                (before, after) if before.rests() && after.rests() => return None,
                 (FrictionMode::Slip(a), FrictionMode::Slip(b)) if a.direction != b.direction => {
                     EventKind::Reverses
                 }

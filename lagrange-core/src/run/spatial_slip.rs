@@ -27,7 +27,7 @@ const ROUNDING: f64 = 1e-15;
 /// Forces are off by so many times as much as the direction of the slip.
 const BLUR: f64 = 16.0;
 /// A slip of so many errors of what it is made of is lost among them.
-const ERRORS: f64 = 2.0;
+pub(super) const ERRORS: f64 = 2.0;
 /// Friction that is below its limit by so many tolerances holds.
 const CLEAR: f64 = 100.0;
 /// A step of another method than Taylor series in which a slip that goes on as it begins falls below this share of itself, or changes by as much, is too
@@ -52,7 +52,7 @@ pub(super) struct Rest {
 
 impl<T: Scalar> Run<T> {
     /// Whether friction `f` slips with two components along itself.
-    fn turns(&self, f: usize) -> bool {
+    pub(super) fn turns(&self, f: usize) -> bool {
         matches!(
             self.now.mode.frictions[f],
             FrictionMode::Slip(Sliding {
@@ -193,7 +193,7 @@ impl<T: Scalar> Run<T> {
     }
 
     /// The error of a slip of two components, at the state of the last tape, from those of the velocities, beside the slip.
-    fn error_of_direction(&self, f: usize) -> f64 {
+    pub(super) fn error_of_direction(&self, f: usize) -> f64 {
         let row = self.description().frictions[f].row;
         let error = |row: usize| self.error_of_rate(row, &self.now.state.v);
         let slip = self.dynamics.slip(f).map(|s| s.value());
@@ -231,9 +231,9 @@ impl<T: Scalar> Run<T> {
         })
     }
 
-    /// Whether rest changes velocities by no more than their errors: a slip that is small beside what moves in it may be all that turns a small body.
+    /// Whether rest changes velocities by no more than their errors, to those in `earlier`: a slip that is small beside what moves in it may be all that turns a small body.
     /// `dynamics` is in the mode at rest.
-    fn stop_within_errors(&mut self) -> bool {
+    pub(super) fn stop_within_errors(&mut self) -> bool {
         let State { q, v, .. } = &self.now.state;
         let stopped = &mut self.locator.earlier;
         stopped.copy_from_slice(v);
