@@ -26,25 +26,36 @@ impl<T: Scalar> Run<T> {
         if rate.abs() > SLOW * self.settings.tolerance.sqrt() * fastest {
             return false;
         }
+        let (n, positions) = (self.now.state.q.len(), &self.now.state.q);
+        let allowed = |j: usize| self.settings.allowed(j, positions[j].value().abs());
+        let shallow = self.dynamics.size_of_row(row, allowed);
+        let error = self.settings.tolerance;
         let [mut here, mut there] = core::mem::take(&mut self.switcher.gradients);
         let whole = self.free_gradient(row, &mut here);
-        let shallow = self.settings.tolerance * self.size_of_gap(c);
-        let error = self.settings.tolerance;
-        let moved = |j: usize, _| T::from_f64(if j % 2 == 1 { -error } else { error });
-        self.beside(None, T::zero(), moved, |run| {
-            run.free_gradient(row, &mut there)
-        });
-        let n = self.now.state.q.len();
-        let pairs = here[here.len() - n..].iter().zip(&there[there.len() - n..]);
-        let change = pairs.map(|(here, there)| (here - there).abs());
-        let change = change.fold(0.0, f64::max);
-        // Along a parabola of this curvature the gap falls no deeper than that.
-        let bend = change / error;
-        let depth = norm(&here[here.len() - n..]).powi(2) / (2.0 * bend);
+        let gradient = &here[here.len() - n..];
+        let slope = norm(gradient);
+        // Where there is hardly a gradient, its direction is rounding.
+        let any = |j: usize| if j % 2 == 1 { -1.0 } else { 1.0 };
+        let along = |j: usize| gradient[j] / slope;
+        let touches = [&any as &dyn Fn(usize) -> f64, &along]
+            .iter()
+            .any(|direction| {
+                let moved = |j: usize, _| T::from_f64(error * direction(j));
+                self.beside(None, T::zero(), moved, |run| {
+                    run.free_gradient(row, &mut there)
+                });
+                let pairs = gradient.iter().zip(&there[there.len() - n..]);
+                let change = pairs.map(|(here, there)| (here - there).abs());
+                let change = change.fold(0.0, f64::max);
+                // Along a parabola of this curvature the gap falls no deeper than that.
+                let bend = change / error;
+                let depth = slope.powi(2) / (2.0 * bend);
+                // What constraints hold closed for good touches nevertheless.
+                let bends = change > rounding::<T>(UNCHANGED) * whole;
+                bends && depth <= shallow.max(0.5 * (DIRECTED * error).powi(2) * bend)
+            });
         self.switcher.gradients = [here, there];
-        // What constraints hold closed for good touches nevertheless.
-        let bends = change > rounding::<T>(UNCHANGED) * whole;
-        bends && depth <= shallow.max(0.5 * (DIRECTED * error).powi(2) * bend)
+        touches
     }
 
     /// Writes the part of the gradient of a row that the constraints leave free behind an orthogonal basis of theirs; the size of the whole gradient.
