@@ -50,6 +50,9 @@ enum Kind {
     Mark(usize),
 }
 
+/// Rounding makes of a value so many times the terms that make it: no gradient makes that of a height 1 − cos φ small.
+const ROUNDING: f64 = 2.0 * f64::EPSILON;
+
 /// A guard and its last value, with its time. A gap counts where its region is ≥ 0. Stops and marks are true where all terms are.
 #[derive(Debug)]
 struct Guard {
@@ -336,13 +339,13 @@ impl Watches {
             };
             guard.last = Some((at.time, value));
             // What is as it should be is not measured, and forces do not follow from the state alone.
-            let mut reach = 0.0;
+            let (mut reach, mut rounding) = (0.0, 0.0);
             if error > 0.0 {
-                self.values.gradient_size(term, 0, &mut self.changes);
+                rounding = ROUNDING * self.values.gradient_size(term, 0, &mut self.changes);
                 reach = change(&self.changes, &self.sizes, [at.q, at.v]);
             }
             let reach = if reach > 0.0 { reach } else { 1.0 };
-            findings.book(subject, error.max(0.0), reach, at.time, name);
+            findings.book(subject, (error - rounding).max(0.0), reach, at.time, name);
         }
     }
 }

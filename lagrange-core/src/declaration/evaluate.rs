@@ -359,9 +359,11 @@ impl Evaluator {
         self.weights = weights;
     }
 
-    /// Σ |∂c/∂qₖ| for every coordinate and k, c a coefficient of a value.
-    pub fn gradient_size(&mut self, value: usize, power: usize, out: &mut [[f64; 3]]) {
+    /// Σ |∂c/∂qₖ| for every coordinate and k, c a coefficient of a value. Returned is the size of the terms that make the value: rounding of each
+    /// operation changes it by this times 1e-16 at most.
+    pub fn gradient_size(&mut self, value: usize, power: usize, out: &mut [[f64; 3]]) -> f64 {
         out.fill([0.0; 3]);
+        let mut terms = 0.0;
         let mut sizes = core::mem::take(&mut self.sizes);
         sizes.clear();
         sizes.resize(value + 1, [0.0; 3]);
@@ -372,6 +374,7 @@ impl Evaluator {
             if w == [0.0; 3] {
                 continue;
             }
+            terms += w[0] * self.values[operation.value].0[0].abs();
             match operation.code {
                 op::POSITION => {
                     let out = &mut out[operation.x];
@@ -392,5 +395,6 @@ impl Evaluator {
             }
         }
         self.sizes = sizes;
+        terms
     }
 }
