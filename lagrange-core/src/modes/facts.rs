@@ -32,6 +32,8 @@ pub struct SwitchFacts {
     pub located: Vec<Guard>,
     /// Guards that have just been located as roots and end no mode: limits of a friction that can hold nothing at this instant, beside others that hold.
     pub touched: Vec<Guard>,
+    /// Slips of two components have come to rest of which only errors were left: the state decides as it is.
+    pub lost: bool,
     /// Time has not advanced since the last switch: what has been located now is zero as exactly as time can tell.
     pub again: bool,
     /// What evaluation leaves of the forces that have been located as zero, relative to the terms that they are made of.
@@ -62,6 +64,7 @@ impl SwitchFacts {
         self.jumped = false;
         self.located.clear();
         self.touched.clear();
+        self.lost = false;
         self.again = false;
         self.residue = 0.0;
         self.lasted = f64::INFINITY;

@@ -148,7 +148,7 @@ impl<T: Scalar> Now<T> {
                 q: &self.state.q,
                 v: &self.state.v,
                 order,
-                tolerance,
+                tolerance: if facts.lost { 0.0 } else { tolerance },
             },
             present: &self.mode,
             facts,

@@ -328,7 +328,7 @@ impl<T: Scalar> Run<T> {
         if !hit {
             self.rest_where_slip_vanishes(facts);
             self.rest_with_what_comes_to_rest(facts);
-            self.rest_with_what_lets_go(facts);
+            self.slips_begin_anew(facts);
         }
         self.balance_what_is_held(facts);
         Ok(hit)

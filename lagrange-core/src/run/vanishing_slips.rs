@@ -50,49 +50,51 @@ impl<T: Scalar> Run<T> {
         self.rest_among(ending, coming > 1, facts);
     }
 
-    /// Slips of two components no larger than the errors of velocities begin anew with what lets go: of a plate whose pads let go shortly one after the other
-    /// errors would choose how the first one rubs, and whether the second one holds.
-    pub(super) fn rest_with_what_lets_go(&mut self, facts: &mut SwitchFacts) {
+    /// Slips of two components no larger than the errors of velocities begin anew with what lets go, and with one of them that comes to rest: of a plate whose
+    /// pads let go shortly one after the other errors would choose how the first one rubs, and whether the second one holds.
+    pub(super) fn slips_begin_anew(&mut self, facts: &mut SwitchFacts) {
+        // An instant that errors choose has no derivatives.
+        if T::DERIVATIVES > 0 || !self.now.mode.has_turning_slip() {
+            return;
+        }
+        let was_lost = self.stepper.astray * ERRORS >= 1.0;
         let lets_go = |guard: &Guard| match *guard {
             Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) => {
                 self.now.mode.frictions[f] == FrictionMode::Stick
             }
             _ => false,
         };
-        // An instant that errors choose has no derivatives.
-        if T::DERIVATIVES > 0
-            || !self.now.mode.has_turning_slip()
-            || !facts.located.iter().any(lets_go)
-        {
+        let rests = |guard: &Guard| matches!(*guard, Guard::Slip(f) if self.turns(f));
+        facts.lost = was_lost && facts.located.iter().any(rests);
+        if !facts.lost && !facts.located.iter().any(lets_go) {
             return;
         }
         self.tape_of_all_rows();
         self.now.valued = false;
         let lost = |run: &Self, f: usize| {
-            run.turns(f) && !facts.resting[f] && run.error_of_direction(f) * ERRORS >= 1.0
+            let rests = facts.resting[f] && facts.lost;
+            run.turns(f) && (rests || run.error_of_direction(f) * ERRORS >= 1.0)
         };
         let mut ending = core::mem::take(&mut self.switcher.ending);
         ending.clear();
         ending.extend((0..facts.resting.len()).filter(|&f| lost(self, f)));
-        if !ending.is_empty() {
-            let mode = &mut self.switcher.scratch_mode;
-            mode.clone_from(&self.now.mode);
-            for &f in &ending {
-                mode.frictions[f] = FrictionMode::Stick;
-            }
-            self.dynamics.set_mode(mode);
-            if self.stop_within_errors() {
-                self.now.state.v.copy_from_slice(&self.locator.earlier);
-                for &f in &ending {
-                    facts.resting[f] = true;
-                    // That it begins anew is no event.
-                    let along = self.dynamics.slip_direction(f).map(T::value);
-                    let before = &mut self.recorder.before.mode;
-                    before.turn(f, Direction::Incipient(along));
-                }
-            }
-            self.dynamics.set_mode(&self.now.mode);
+        let mode = &mut self.switcher.scratch_mode;
+        mode.clone_from(&self.now.mode);
+        for &f in &ending {
+            mode.frictions[f] = FrictionMode::Stick;
         }
+        self.dynamics.set_mode(mode);
+        if !ending.is_empty() && self.stop_within_errors() {
+            self.now.state.v.copy_from_slice(&self.locator.earlier);
+            for &f in &ending {
+                facts.resting[f] = true;
+                // That it begins anew is no event.
+                let along = self.dynamics.slip_direction(f).map(T::value);
+                let before = &mut self.recorder.before.mode;
+                before.turn(f, Direction::Incipient(along));
+            }
+        }
+        self.dynamics.set_mode(&self.now.mode);
         self.switcher.ending = ending;
     }
 
