@@ -167,7 +167,7 @@ impl<T: Scalar> Run<T> {
         if self.locator.at_limit.is_empty() {
             return;
         }
-        self.locator.blur = self.error_of_directions();
+        self.locator.blur = self.blur_at_limit();
         let Switcher { decider, .. } = &mut self.switcher;
         let limit = AT_LIMIT.max(self.locator.blur);
         self.locator.at_limit.retain_mut(|(guard, size)| {

@@ -175,9 +175,40 @@ impl<T: Scalar> Run<T> {
         held
     }
 
-    /// How far the directions of slips may be off, because velocities are; the values are those of the state.
-    pub(super) fn error_of_directions(&mut self) -> f64 {
-        self.largest_of_slips(Self::error_of_direction)
+    /// How far forces at their limit are off, relative to what makes them, because velocities are, and with them the directions of slips. The dynamics hold
+    /// the values of the state, before and after.
+    pub(super) fn blur_at_limit(&mut self) -> f64 {
+        if !self.now.valued || !self.now.mode.has_turning_slip() {
+            return 0.0;
+        }
+        let mut blur = 0.0_f64;
+        for k in 0..self.locator.at_limit.len() {
+            let (guard, _) = self.locator.at_limit[k];
+            let (value, size) = self.force_beside(guard, |_| 0.0);
+            for sign in [ERRORS, -ERRORS] {
+                for other in [sign, -sign] {
+                    let errors = |j: usize| if j.is_multiple_of(2) { sign } else { other };
+                    let (off, _) = self.force_beside(guard, errors);
+                    blur = blur.max((off - value).abs() / size);
+                }
+            }
+            self.force_beside(guard, |_| 0.0);
+        }
+        blur
+    }
+
+    /// A guard of a force, and the size of what makes it, with velocities so many errors beside those of the state.
+    fn force_beside(&mut self, guard: Guard, errors: impl Fn(usize) -> f64) -> (f64, f64) {
+        let State { q, v, .. } = &self.now.state;
+        let beside = &mut self.stepper.scratch.v;
+        for (j, (beside, v)) in beside.iter_mut().zip(v).enumerate() {
+            let error = errors(j) * self.settings.allowed(j, v.value().abs());
+            *beside = *v + T::from_f64(error);
+        }
+        // Where there is no value the last one stands.
+        _ = self.dynamics.value(self.now.t, q, beside);
+        let decider = &mut self.switcher.decider;
+        decider.force(&mut self.dynamics, &self.now.mode, guard)
     }
 
     /// The largest share, up to 1, by which a slip of two components along itself is off.
