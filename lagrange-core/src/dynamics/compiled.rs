@@ -180,7 +180,7 @@ impl<T: Scalar> Compiled<T> {
     /// Undoes [`Self::refuse_functions`]: one motion must not depend on those before it.
     pub(super) fn restart(&mut self) {
         self.refused = false;
-        self.solver.hold_rows_aside(false);
+        self.solver.forget_rows_aside();
     }
 
     /// Whether a row that acts is held aside.

@@ -144,6 +144,12 @@ impl<T: Scalar> Solver<T> {
         self.holds = yes && self.has_rows_aside();
     }
 
+    /// Sets no rows aside, as before the first matrix.
+    pub(crate) fn forget_rows_aside(&mut self) {
+        self.holds = false;
+        self.aside.clear();
+    }
+
     /// Whether rows are held aside.
     pub(crate) fn holds_rows_aside(&self) -> bool {
         self.holds
