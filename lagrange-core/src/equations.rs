@@ -10,7 +10,7 @@
 //! hand is refused; the core then looks for better ones.
 
 use crate::arithmetic::Number;
-pub use crate::arithmetic::products::{Factors, Products, ROW, Row, STRIDE};
+pub use crate::arithmetic::products::{Factors, ROW, Row, STRIDE};
 pub use crate::arithmetic::registers::Registers;
 use crate::arithmetic::registers::{self, Body};
 use crate::program::{Selection, ValueRef};
@@ -82,7 +82,7 @@ pub type SeriesFn<N> = fn(
     usize,
     Arguments<'_, N>,
     &mut [Row<N>],
-    &mut [Products<N>],
+    &mut [Factors<N>],
 ) -> Result<(), Refused>;
 
 /// The series of a mode, for any kind of number: what a [`SeriesFn`] does.
@@ -98,7 +98,7 @@ pub trait ModeSeries<N: Number> {
         order: usize,
         state: Arguments<'_, N>,
         rows: &mut [Row<N>],
-        products: &mut [Products<N>],
+        products: &mut [Factors<N>],
     ) -> Result<(), Refused>;
 }
 
@@ -112,7 +112,7 @@ pub fn across<S: ModeSeries<N>, N: Number>(
     order: usize,
     state: Arguments<'_, N>,
     rows: &mut [Row<N>],
-    products: &mut [Products<N>],
+    products: &mut [Factors<N>],
 ) -> Result<(), Refused> {
     let arguments = (c, held, order, state, rows, products);
     registers::across::<Expansion<S>, _>(arguments).unwrap_or(Err(Refused::NoRegisters))
@@ -125,7 +125,7 @@ type SeriesArguments<'a, N> = (
     usize,
     Arguments<'a, N>,
     &'a mut [Row<N>],
-    &'a mut [Products<N>],
+    &'a mut [Factors<N>],
 );
 
 /// A series as a function of one argument.

@@ -132,14 +132,8 @@ impl<T: Scalar, const L: usize> Fours for Pack<T, L> {
     one_by_one!();
 }
 
-/// The factors of four products, coefficient by coefficient.
-#[derive(Clone, Debug)]
-pub struct Products<N: Number> {
-    x: [N::Four; STRIDE],
-    y: [N::Four; STRIDE],
-}
-
-/// Coefficient k of the factors of four products.
+/// One coefficient of the factors of four products. Those of several such groups lie side by side, and behind them those of the next coefficient: sums
+/// go along them from the middle to both ends.
 #[derive(Clone, Copy, Debug)]
 pub struct Factors<N: Number> {
     x: N::Four,
@@ -155,50 +149,36 @@ impl<N: Number> Factors<N> {
             y: N::zeros(),
         }
     }
-}
 
-impl<N: Number> Default for Products<N> {
-    fn default() -> Self {
-        Self {
-            x: [N::zeros(); STRIDE],
-            y: [N::zeros(); STRIDE],
-        }
-    }
-}
-
-impl<N: Number> Products<N> {
-    /// Keeps coefficient k of the factors.
+    /// Keeps a coefficient of the factors.
     #[inline(always)]
-    pub fn keep(
-        &mut self,
-        registers: Registers,
-        k: usize,
-        x: [N; GROUP],
-        y: [N; GROUP],
-    ) -> Factors<N> {
+    pub fn keep(&mut self, registers: Registers, x: [N; GROUP], y: [N; GROUP]) -> Self {
         let (x, y) = (N::four(registers, x), N::four(registers, y));
-        (self.x[k % STRIDE], self.y[k % STRIDE]) = (x, y);
-        Factors { x, y }
+        *self = Self { x, y };
+        *self
     }
 
-    /// Σ xⱼ yₖ₋ⱼ for 0 < j < k of several groups, whose newest coefficients are those of k − 1.
+    /// Σ xⱼ yₖ₋ⱼ for 0 < j < k of the groups from `first` on, whose newest coefficients are those of k − 1.
     #[inline(always)]
-    pub fn sums<const G: usize>(
+    pub fn sums<const P: usize, const G: usize>(
         registers: Registers,
         k: usize,
-        groups: [(&Self, Factors<N>); G],
+        products: &[[Self; P]; STRIDE],
+        first: usize,
+        newest: [Self; G],
     ) -> [[N; GROUP]; G] {
         let mut sums = [[N::of(0.0); GROUP]; G];
         let mut group = 0;
         if N::IN_REGISTERS {
-            let all = side_by_side(registers, k, groups);
+            let all = side_by_side(registers, k, products, first, newest);
             while group < G {
                 sums[group] = N::numbers(all[group]);
                 group += 1;
             }
         } else {
             while group < G {
-                let [one] = side_by_side(registers, k, [groups[group]]);
+                let newest = [newest[group]];
+                let [one] = side_by_side(registers, k, products, first + group, newest);
                 sums[group] = N::numbers(one);
                 group += 1;
             }
@@ -209,48 +189,47 @@ impl<N: Number> Products<N> {
 
 /// The sums of groups in one loop over their terms.
 #[inline(always)]
-fn side_by_side<N: Number, const G: usize>(
+fn side_by_side<N: Number, const P: usize, const G: usize>(
     registers: Registers,
     k: usize,
-    groups: [(&Products<N>, Factors<N>); G],
+    products: &[[Factors<N>; P]; STRIDE],
+    first: usize,
+    newest: [Factors<N>; G],
 ) -> [N::Four; G] {
     let mut sums = [N::zeros(); G];
-    let middle = k / 2;
-    if k == 2 * middle {
-        sums = one_more(registers, groups, (middle, middle), sums);
-    }
-    let mut j = k - middle;
-    while j > 2 {
-        j -= 1;
-        sums = one_more(registers, groups, (j, k - j), sums);
-        sums = one_more(registers, groups, (k - j, j), sums);
-    }
-    if k > 2 {
+    let k = k % STRIDE;
+    let (before, mut later) = products.split_at(k.div_ceil(2));
+    if let (0, [middle, others @ ..]) = (k % 2, later) {
         let mut group = 0;
         while group < G {
-            let (products, newest) = groups[group];
-            let sum = N::add_products(registers, products.x[1], newest.y, sums[group]);
-            sums[group] = N::add_products(registers, newest.x, products.y[1], sum);
+            let Factors { x, y } = middle[first + group];
+            sums[group] = N::add_products(registers, x, y, sums[group]);
+            group += 1;
+        }
+        later = others;
+    }
+    if let [_, oldest, earlier @ ..] = before {
+        for (earlier, later) in earlier.iter().rev().zip(later) {
+            let mut group = 0;
+            while group < G {
+                let pair = [earlier[first + group], later[first + group]];
+                sums[group] = both_ways(registers, pair, sums[group]);
+                group += 1;
+            }
+        }
+        let mut group = 0;
+        while group < G {
+            let pair = [oldest[first + group], newest[group]];
+            sums[group] = both_ways(registers, pair, sums[group]);
             group += 1;
         }
     }
     sums
 }
 
-/// The sums with the terms xⱼ yᵢ.
+/// A sum with the terms xⱼ yᵢ and xᵢ yⱼ.
 #[inline(always)]
-fn one_more<N: Number, const G: usize>(
-    registers: Registers,
-    groups: [(&Products<N>, Factors<N>); G],
-    (j, i): (usize, usize),
-    mut sums: [N::Four; G],
-) -> [N::Four; G] {
-    let mut group = 0;
-    while group < G {
-        let products = groups[group].0;
-        let (x, y) = (products.x[j % STRIDE], products.y[i % STRIDE]);
-        sums[group] = N::add_products(registers, x, y, sums[group]);
-        group += 1;
-    }
-    sums
+fn both_ways<N: Number>(registers: Registers, [j, i]: [Factors<N>; 2], sum: N::Four) -> N::Four {
+    let sum = N::add_products(registers, j.x, i.y, sum);
+    N::add_products(registers, i.x, j.y, sum)
 }

@@ -3,7 +3,7 @@
 use crate::arithmetic::{Scalar, epsilon};
 use crate::effects::{Effects, Item};
 use crate::equations::{
-    Arguments, FrictionState, ModeStructure, Products, ROW, Refused, Row, SeriesFn, ValueFn,
+    Arguments, Factors, FrictionState, ModeStructure, ROW, Refused, Row, STRIDE, SeriesFn, ValueFn,
 };
 use crate::mode::{Direction, FrictionMode, Mode};
 use crate::system::{Description, ErasedSystem, Selection, ValueRef};
@@ -25,7 +25,7 @@ pub(super) struct Emitted<T: Scalar> {
     admitted: bool,
     rows: Vec<Row<T>>,
     /// Factors of products of series.
-    products: Vec<Products<T>>,
+    products: Vec<Factors<T>>,
     order: usize,
     /// What the last value that was asked for more than accelerations has given: see [`ModeStructure::values`].
     values: Vec<T>,
@@ -92,7 +92,7 @@ impl<T: Scalar> Emitted<T> {
             signs,
             admitted: false,
             rows: vec![[zero; ROW]; structure.rows],
-            products: vec![Products::default(); structure.products],
+            products: vec![Factors::none(); STRIDE * structure.products],
             order: 0,
             values: vec![zero; structure.values],
             motion_rows: rows_by_node(d.motion.outputs, structure.motion),

@@ -86,7 +86,7 @@ pub fn equations(program: &Program) -> TokenStream {
         fn mode_series<#number: #core::__private::Number>(
         ) -> &'static [#core::__private::equations::SeriesFn<#number>] {
             use #core::__private::equations::{
-                Arguments, Factors, INVERSES, ModeSeries, Products, Refused, Registers, Row, SeriesFn, across,
+                Arguments, Factors, INVERSES, ModeSeries, Refused, Registers, Row, STRIDE, SeriesFn, across,
                 first, first_mut,
             };
             use #core::__private::{Number, program::Selection};

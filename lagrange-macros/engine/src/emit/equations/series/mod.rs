@@ -67,6 +67,9 @@ pub fn implementation(
     let (t, q, v, registers) = (local("t"), local("q"), local("v"), local("registers"));
     let (products, newest) = (local("products"), local("newest"));
     let groups = index(plan.groups);
+    let memory = (plan.groups > 0).then(
+        || quote!(let #products = first_mut::<STRIDE, _>(#products.as_chunks_mut::<#groups>().0);),
+    );
     let prologue = expansion.writer.prologue();
     let needs = names::needs(program.equations.needs.len());
     let (row_names, count) = (expansion.row_names(), index(plan.rows));
@@ -83,12 +86,12 @@ pub fn implementation(
                 #order: usize,
                 (#t, #q, #v): Arguments<'_, #number>,
                 #rows: &mut [Row<#number>],
-                #products: &mut [Products<#number>],
+                #products: &mut [Factors<#number>],
             ) -> #result {
                 #prologue
                 #row_names
                 let #rows = first_mut::<#count, _>(#rows);
-                let #products = first_mut::<#groups, _>(#products);
+                #memory
                 #needs
                 #first
                 let mut #newest = [Factors::<#number>::none(); #groups];

@@ -47,13 +47,13 @@ impl Expansion<'_> {
                 quote!([#(#names,)* #(#rest),*])
             });
             let from = first + at * together;
-            let factors = (from..from + products.len().div_ceil(GROUP)).map(|at| {
+            let last = (from..from + products.len().div_ceil(GROUP)).map(|at| {
                 let at = index(at);
-                quote!((&#memory[#at], #newest[#at]))
+                quote!(#newest[#at])
             });
-            let bind = new.then(|| quote!(let));
+            let (bind, from) = (new.then(|| quote!(let)), index(from));
             quote! {
-                #bind [#(#groups),*] = Products::sums(#registers, #k, [#(#factors),*]);
+                #bind [#(#groups),*] = Factors::sums(#registers, #k, #memory, #from, [#(#last),*]);
             }
         });
         quote!(#(#loops)*)
@@ -110,7 +110,7 @@ impl Expansion<'_> {
             let filled = |place: usize| group[place.min(group.len() - 1)].1;
             let x = (0..GROUP).map(|place| self.factor(filled(place).0));
             let y = (0..GROUP).map(|place| self.factor(filled(place).1));
-            quote!(#newest[#at] = #memory[#at].keep(#registers, #p, [#(#x),*], [#(#y),*]);)
+            quote!(#newest[#at] = #memory[#p][#at].keep(#registers, [#(#x),*], [#(#y),*]);)
         });
         quote!(#(#groups)*)
     }
