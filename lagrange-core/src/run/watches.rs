@@ -343,12 +343,14 @@ fn is_zero(curve: &[f64], s: f64, now: f64, resolution: f64) -> bool {
     let first = curve.iter().take(2).map(|c| c.abs());
     let size = all.min(LATER * (first.sum::<f64>() + now.abs()));
     let steepest = curve.len() as f64 * all;
-    let far = now.abs() > (RESOLUTION * size).max(resolution * steepest);
+    if now.abs() > (RESOLUTION * size).max(resolution * steepest) {
+        return false;
+    }
     // Close to a pole a curve is steep and has no zero: of c/x it is c₀ c₂ = c₁².
     let has_pole = s == 0.0
         && matches!(*curve, [start, rate, bend, ..] if (start * bend).abs() >= 0.5 * rate * rate);
     let steep = if has_pole { 0.0 } else { slope(curve, s).abs() };
-    !far && now.abs() <= (RESOLUTION * size).max(resolution * steep)
+    now.abs() <= (RESOLUTION * size).max(resolution * steep)
 }
 
 /// The first coefficient that can be told from 0 by numbers this much smaller than all together.
