@@ -118,10 +118,12 @@ impl<T: Scalar> Run<T> {
     /// Opens contacts whose gap has no gradient where it is zero, as that above a floor which is exactly as low as a pendulum hangs: they carry nothing.
     fn release_contacts_without_direction(&mut self) {
         self.locator.fallen.clear();
-        if !self.now.mode.contacts.contains(&true) {
+        self.dynamics.set_mode(&self.now.mode);
+        let closed = self.now.mode.contacts.iter().enumerate();
+        let mut closed = closed.filter_map(|(c, closed)| closed.then_some(c));
+        if !closed.any(|c| self.gradient_varies(c)) {
             return;
         }
-        self.dynamics.set_mode(&self.now.mode);
         self.tape_of_all_rows();
         for c in 0..self.description().contacts.len() {
             if self.now.mode.contacts[c] && self.has_no_direction(c) {

@@ -19,6 +19,9 @@ impl<T: Scalar> Run<T> {
     /// Whether positions are not known well enough to tell in which direction the gap of an open contact changes: that above a floor which is exactly as low
     /// as a pendulum hangs has no gradient there, or none that the rod of the pendulum leaves free.
     pub(super) fn has_no_direction(&mut self, c: usize) -> bool {
+        if !self.gradient_varies(c) {
+            return false;
+        }
         let row = self.description().contacts[c].row;
         let fastest = self.now.state.v.iter();
         let fastest = fastest.fold(0.0_f64, |fastest, v| fastest.max(v.value().abs()));
@@ -58,16 +61,28 @@ impl<T: Scalar> Run<T> {
         touches
     }
 
+    /// Whether the gradient of the gap of contact `c`, or what constraints leave free of it, depends on the state.
+    pub(super) fn gradient_varies(&self, c: usize) -> bool {
+        let d = self.description();
+        let mut rows = self.acting_constraints().chain([d.contacts[c].row]);
+        rows.any(|row| !d.rows[row].is_constant())
+    }
+
+    /// The rows of the constraints that act in the mode.
+    fn acting_constraints(&self) -> impl Iterator<Item = usize> {
+        let acting = self.dynamics.acting_rows();
+        let constraints = self.description().constraints.iter();
+        let rows = constraints.map(|constraint| constraint.row);
+        rows.filter(|row| acting.binary_search(row).is_ok())
+    }
+
     /// Writes the part of the gradient of a row that the constraints leave free behind an orthogonal basis of theirs; the size of the whole gradient.
     fn free_gradient(&self, row: usize, list: &mut Vec<f64>) -> f64 {
         let d = self.description();
         let n = self.now.state.q.len();
         list.clear();
         let mut whole = 0.0;
-        let acting = self.dynamics.acting_rows();
-        let constraints = d.constraints.iter().map(|constraint| constraint.row);
-        let constraints = constraints.filter(|row| acting.binary_search(row).is_ok());
-        for of in constraints.chain([row]) {
+        for of in self.acting_constraints().chain([row]) {
             let first = list.len();
             list.resize(first + n, 0.0);
             let (basis, part) = list.split_at_mut(first);
