@@ -55,8 +55,6 @@ pub struct Candidates {
     modes: Pool<Mode>,
     /// Rank and place of each.
     order: Vec<(u128, usize)>,
-    /// The guards of frictions that had been overcome when they were put in order.
-    overcome: Vec<Guard>,
 }
 
 impl Candidates {
@@ -67,31 +65,19 @@ impl Candidates {
 
     /// These in order, unless they are more than `most`.
     fn sorted(&mut self, here: SwitchContext<'_, impl Copy>, most: usize) -> Option<&Self> {
-        (self.modes.len() <= most).then(|| {
-            self.sort(here);
-            &*self
-        })
-    }
-
-    /// Puts the modes in order, unless they are in that which these guards ask for.
-    fn sort(&mut self, here: SwitchContext<'_, impl Copy>) {
-        let located = here.facts.located.iter().copied();
-        let overcome = located.filter(|guard| guard.holding().is_some());
-        if self.order.len() == self.modes.len()
-            && overcome.clone().eq(self.overcome.iter().copied())
-        {
-            return;
+        if self.modes.len() > most {
+            return None;
         }
-        self.overcome.clear();
-        self.overcome.extend(overcome);
-        self.order.clear();
-        let ranks = self.modes.iter().map(|mode| rank(mode, here));
-        self.order.extend(ranks.zip(0..));
-        self.order.sort_unstable();
+        if self.order.is_empty() {
+            let ranks = self.modes.iter().map(|mode| rank(mode, here));
+            self.order.extend(ranks.zip(0..));
+            self.order.sort_unstable();
+        }
+        Some(self)
     }
 }
 
-/// What decides on the candidates: the mode up to the instant, and what vanishes there.
+/// What decides on the candidates and their order: the mode up to the instant, and what vanishes there.
 #[derive(Clone, Debug)]
 struct Facts {
     present: Mode,
@@ -99,8 +85,16 @@ struct Facts {
     touching: Vec<bool>,
     resting: Vec<bool>,
     balanced: Vec<bool>,
+    /// The guards of frictions that have been overcome.
+    overcome: Vec<Guard>,
     /// As in [`Listings`].
     grips: Vec<Grip>,
+}
+
+/// The guards of frictions that have been overcome.
+fn overcome(here: SwitchContext<'_, impl Copy>) -> impl Iterator<Item = Guard> + Clone {
+    let located = here.facts.located.iter().copied();
+    located.filter(|guard| guard.holding().is_some())
 }
 
 impl Facts {
@@ -111,6 +105,7 @@ impl Facts {
             touching: facts.touching.clone(),
             resting: facts.resting.clone(),
             balanced: facts.balanced.clone(),
+            overcome: overcome(here).collect(),
             grips: grips.to_vec(),
         }
     }
@@ -121,6 +116,7 @@ impl Facts {
             && self.resting == facts.resting
             && self.balanced == facts.balanced
             && self.grips == grips
+            && overcome(here).eq(self.overcome.iter().copied())
             && self.present == *present
     }
 }
@@ -138,9 +134,9 @@ fn rank(mode: &Mode, here: SwitchContext<'_, impl Copy>) -> u128 {
         .iter()
         .any(|g| matches!(g, Guard::Composite(_)));
     let sticks_on = |f: usize| mode.frictions[f] == FrictionMode::Stick;
-    let holds = |guard: &&Guard| guard.holding().is_some_and(sticks_on);
-    let overcome = facts.located.iter().filter(|g| g.holding().is_some());
-    let left_behind = facts.located.iter().filter(holds).count();
+    let holds = |guard: &Guard| guard.holding().is_some_and(sticks_on);
+    let overcome = overcome(here);
+    let left_behind = overcome.clone().filter(holds).count();
     // All together may hold by other bounds: of a load that does not grow on, or where what presses them turns.
     let may_hold = !facts.again && left_behind == overcome.count();
     let changes = changes(mode, present);
