@@ -22,6 +22,8 @@ const MOST_INTERPRETED: usize = 12;
 #[derive(Clone, Debug)]
 pub(super) struct Compiled<T: Scalar> {
     pub mode: Mode,
+    /// See [`Dynamics::mode_number`](super::Dynamics::mode_number).
+    pub number: usize,
     /// Outputs that the equations of motion need.
     pub motion_needs: OutputMask,
     /// Inertia, Jacobians and residuals of the rows that act.
@@ -65,6 +67,7 @@ impl<T: Scalar> Compiled<T> {
         let d = system.description();
         let mut compiled = Self {
             mode: mode.clone(),
+            number: 0,
             motion_needs: output_mask::of_motion(d, effects, mode),
             row_needs: output_mask::of_rows(d, effects, mode),
             held: Held::new(d),

@@ -209,6 +209,11 @@ impl<T: Scalar> Dynamics<T> {
         self.current
     }
 
+    /// Number of the present mode, in the order in which modes were made ready.
+    pub(crate) fn mode_number(&self) -> usize {
+        self.compiled().number
+    }
+
     /// What the equations of motion of this mode need.
     #[doc(hidden)]
     pub fn motion_needs(&self) -> &OutputMask {
@@ -329,7 +334,9 @@ impl<T: Scalar> Dynamics<T> {
     /// Makes a mode ready; returns its place.
     #[cold]
     fn compile(&mut self, mode: &Mode) -> usize {
-        let compiled = Compiled::new(&*self.system, &self.effects, mode, &mut self.constants);
+        let mut compiled = Compiled::new(&*self.system, &self.effects, mode, &mut self.constants);
+        let before = self.modes.iter().map(|compiled| compiled.number);
+        compiled.number = before.max().map_or(0, |last| last + 1);
         if self.modes.len() < MOST_MODES {
             self.modes.push(compiled);
             return self.modes.len() - 1;

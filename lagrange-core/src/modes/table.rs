@@ -3,14 +3,14 @@
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, OutputMask, add_branch_guards, add_guards};
 use crate::effects::Item;
-use crate::mode::Mode;
 use crate::modes::guard::{self, Guard};
 use crate::system::ValueRef;
 
 /// One mode as a run sees it.
 #[derive(Clone, Debug)]
 pub struct Watched {
-    mode: Mode,
+    /// See [`Dynamics::mode_number`].
+    number: usize,
     /// Its guards, without those of stops and marks.
     pub guards: Vec<Guard>,
     /// Needs of the motion, the guards and the report.
@@ -34,10 +34,9 @@ impl Table {
         if index >= self.known.len() {
             self.known.resize(index + 1, None);
         }
-        let mode = dynamics.mode();
         let entry = &mut self.known[index];
         // The dynamics give the place of a mode that they no longer keep to another.
-        entry.take_if(|known| !known.mode.has_equations_of(mode));
+        entry.take_if(|known| known.number != dynamics.mode_number());
         entry.get_or_insert_with(|| watched(dynamics))
     }
 }
@@ -83,7 +82,7 @@ fn watched<T: Scalar>(dynamics: &Dynamics<T>) -> Watched {
         .into_iter()
         .any(|row| !row.is_constant() || row.bias != ValueRef::Zero);
     Watched {
-        mode: mode.clone(),
+        number: dynamics.mode_number(),
         guards,
         needs,
         deciding,
