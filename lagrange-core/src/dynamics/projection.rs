@@ -76,6 +76,9 @@ pub struct Residual {
 impl<T: Scalar> Dynamics<T> {
     /// Residuals at (t, q, v) of the rows that act: of positions g and of velocities ġ.
     pub fn residuals(&mut self, t: T, q: &[T], v: &[T]) -> (Residual, Residual) {
+        if self.acting_rows().is_empty() {
+            return Default::default();
+        }
         self.run_rows(t, q, v);
         (
             self.residual(Level::Position, q),
@@ -95,6 +98,9 @@ impl<T: Scalar> Dynamics<T> {
         v: &mut [T],
         tolerance: f64,
     ) -> Result<bool, EvaluationError> {
+        if self.acting_rows().is_empty() {
+            return Ok(false);
+        }
         let given = self.see_rows(t, q, v);
         let threshold = tolerance.max(tolerated::<T>());
         let displaced = self.residual(Level::Position, q).relative > threshold;
@@ -112,7 +118,7 @@ impl<T: Scalar> Dynamics<T> {
             self.move_velocities(v, &[], residual, least)?;
         }
         self.settle_pinned(q, v, threshold);
-        let carries = T::DERIVATIVES > 0 && !self.acting_rows().is_empty();
+        let carries = T::DERIVATIVES > 0;
         if carries {
             self.move_derivatives(t, q, v, [&[], &[]]);
         }
