@@ -8,7 +8,7 @@ use crate::dynamics::{AT_REST, Dynamics, EvaluationError, OutputMask};
 use crate::integrate::horner;
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::composite::CompositeGuard;
-use crate::modes::facts::{EvaluationPoint, SwitchContext};
+use crate::modes::facts::{EvaluationPoint, SwitchContext, SwitchFacts};
 use crate::modes::guard::{self, Guard};
 use crate::modes::held::conditions;
 use crate::modes::reading::Reading;
@@ -183,13 +183,8 @@ impl<T: Scalar> Decider<T> {
         }
         // Most candidates are refused, and many accepted, by their values already.
         dynamics.value(t, q, v)?;
-        // Inertia and forcing are the same in all modes, but for branches.
-        if !self.sized || facts.balanced.contains(&true) {
-            dynamics.complete_outputs();
-            self.sizes.take(dynamics);
-            self.sized = true;
-        } else {
-            self.sizes.take_rows(dynamics);
+        if !self.questions.is_empty() || dynamics.has_rows_aside() {
+            self.measure(dynamics, facts);
         }
         self.share(dynamics);
         self.ask_values(dynamics, here);
@@ -339,6 +334,17 @@ impl<T: Scalar> Decider<T> {
             }
         }
         Ok(apart)
+    }
+
+    /// Takes the sizes of what guards are made of. Inertia and forcing are the same in all modes, but for branches.
+    fn measure(&mut self, dynamics: &mut Dynamics<T>, facts: &SwitchFacts) {
+        if !self.sized || facts.balanced.contains(&true) {
+            dynamics.complete_outputs();
+            self.sizes.take(dynamics);
+            self.sized = true;
+        } else {
+            self.sizes.take_rows(dynamics);
+        }
     }
 
     /// Puts composite guards in the place of those of undetermined forces.
