@@ -84,9 +84,10 @@ impl<T: Scalar> Run<T> {
             return false;
         };
         let mut fallen = self.locator.fallen.iter();
-        (slope(slip, end).abs() <= self.margin() || self.is_small(f, 0.0) && self.is_small(f, 1.0))
+        fallen.any(|&guard| self.turns_with(f, guard))
+            && (slope(slip, end).abs() <= self.margin()
+                || self.is_small(f, 0.0) && self.is_small(f, 1.0))
             && !polynomials.is_lowered(Guard::Slip(f))
-            && fallen.any(|&guard| self.turns_with(f, guard))
     }
 
     /// Whether the slip of friction `f` is of the size of its errors at part `s` of the step.
@@ -99,10 +100,11 @@ impl<T: Scalar> Run<T> {
     fn turns_with(&self, f: usize, guard: Guard) -> bool {
         let polynomial = |guard| self.locator.polynomials.of(guard);
         let slip = Guard::Slip(f);
-        match (guard, polynomial(guard), polynomial(slip)) {
-            (Guard::Branch(_), Some(curve), Some(slip)) => multiple(curve, slip).is_some(),
-            _ => guard == slip,
-        }
+        let Guard::Branch(_) = guard else {
+            return guard == slip;
+        };
+        let curves = polynomial(guard).zip(polynomial(slip));
+        curves.is_some_and(|(curve, slip)| multiple(curve, slip).is_some())
     }
 
     /// Whether the slip of friction `f`, which is zero at part `end` of the step, where the motion is now, does not change beside what
