@@ -175,7 +175,9 @@ impl<T: Scalar> Examination<'_, T> {
     /// ΔT without the work of moving surfaces is ½ Σ Λ (rate⁻ + rate⁺).
     fn examine_energy_of_impact(&mut self, jump: &Jump, name: &'static str) {
         let (mut gain, mut size) = (0.0, 0.0);
-        for (row, impulse) in jump.impulses.iter().enumerate() {
+        let impulses = jump.impulses.iter().enumerate();
+        // What is not struck need not have a rate: the slip of a friction whose contact is elsewhere, or left out, may be 0/0.
+        for (row, impulse) in impulses.filter(|(_, impulse)| **impulse != 0.0) {
             let (before, after) = (jump.rates_before.rate[row], jump.rates_after.rate[row]);
             gain += impulse * (before + after);
             size += impulse.abs() * (before.abs() + after.abs());

@@ -219,6 +219,38 @@ fn an_impact_that_bounces_too_high_is_found() {
     );
 }
 
+/// A mass that falls onto the ground where no direction leads around it, within a rail on which it would rub.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = weight * y,
+    contact(rail: x^2 + y^2 <= 4),
+    friction(rub on rail: slip = (y * der(x) - x * der(y)) / sqrt(x^2 + y^2), static = 1/5),
+    contact(ground: y >= 0),
+    start(top: y = 1),
+)]
+struct Centred {
+    weight: f64,
+}
+
+#[test]
+fn slips_that_have_no_value_where_something_else_is_struck_do_not_matter() {
+    let mass = Centred { weight: 10.0 };
+    for effects in [
+        Effects::all(),
+        Effects::all().without(Centred::RAIL),
+        Effects::all().without(Centred::RUB),
+    ] {
+        let run = Simulation::new(&mass)
+            .effects(effects)
+            .run(mass.at(Centred::TOP), 0.0..1.0)
+            .expect("a run");
+        assert_eq!(run.final_state().q, [0.0, 0.0]);
+        assert!(certificate(&run).holds(), "{}", certificate(&run));
+    }
+}
+
 /// A mass that drifts past a narrow peak.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
