@@ -29,16 +29,19 @@ pub enum Item {
 }
 
 impl Item {
-    /// All items that a scene can leave out, in order of declaration within each kind.
+    /// All items that a scene can leave out, in order of declaration within each kind: not the unit length of an attitude's quaternion,
+    /// without which there is no orientation.
     pub fn all(description: &Description) -> impl Iterator<Item = Item> + '_ {
         let d = description;
         let optional = |list: &'static [crate::system::Effect], item: fn(usize) -> Item| {
             let named = list.iter().enumerate().filter(|(_, e)| e.optional);
             named.map(move |(i, _)| item(i))
         };
+        let constraints = d.constraints.iter().enumerate();
+        let constraints = constraints.filter(|(_, constraint)| constraint.attitude.is_none());
         optional(d.kinetic, Item::Kinetic)
             .chain(optional(d.potential, Item::Potential))
-            .chain((0..d.constraints.len()).map(Item::Constraint))
+            .chain(constraints.map(|(i, _)| Item::Constraint(i)))
             .chain((0..d.contacts.len()).map(Item::Contact))
             .chain((0..d.frictions.len()).map(Item::Friction))
             .chain((0..d.forces.len()).map(Item::Force))

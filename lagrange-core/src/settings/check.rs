@@ -2,6 +2,7 @@
 
 use super::Settings;
 use crate::arithmetic::{Scalar, epsilon};
+use crate::effects::Item;
 use crate::error::Error;
 use crate::handle::CoordinateId;
 use crate::integrate::Method;
@@ -94,7 +95,13 @@ impl Settings {
 
     fn check_items(&self, d: &Description) -> Result<(), Error> {
         for item in self.effects.left_out() {
-            check_place("index of the item that is left out", item.place(d))?;
+            let what = "index of the item that is left out";
+            let place = item.place(d);
+            check_place(what, place)?;
+            if matches!(item, Item::Constraint(i) if d.constraints[i].attitude.is_some()) {
+                let expected = "that of another item: this one is an attitude, and without the unit length of its quaternion no orientation";
+                return Err(argument(what, place.0 as f64, expected));
+            }
         }
         for awaited in &self.last_events {
             let what = "index of the item after whose event the run ends";

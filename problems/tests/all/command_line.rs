@@ -95,6 +95,11 @@ fn requests_without_sense_are_refused_in_one_line() {
         2,
         "here a body is turned by all of q[0], q[1], q[2], q[3], which are",
     );
+    refuses(
+        &["run", "tumbling-body", "--without", "body"],
+        2,
+        "`body` is an attitude, which cannot be left out",
+    );
     run(&["--until", "0"], "must be above 0");
     run(&["--tolerance", "-1"], "must be above 0");
     run(

@@ -201,6 +201,21 @@ fn items_of_another_system_cannot_be_left_out() {
 }
 
 #[test]
+fn an_attitude_is_no_effect() {
+    let body = Free { inertia: [1.0; 3] };
+    let d = Free::DESCRIPTION;
+    assert!(Item::all(d).all(|item| item.name(d) != "body"));
+    let failure = Simulation::new(&body)
+        .effects(Effects::all().without(Free::BODY))
+        .run(body.at(Free::SPUN), 0.0..1.0)
+        .expect_err("an orientation of no quaternion");
+    assert!(
+        failure.to_string().contains("this one is an attitude"),
+        "{failure}"
+    );
+}
+
+#[test]
 fn what_a_state_is_to_be_consistent_with_is_checked() {
     let scene = shell();
     let given = State::new(vec![1.0, 0.1], vec![0.0; 2]);

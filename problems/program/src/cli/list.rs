@@ -73,11 +73,9 @@ fn one(scene: &dyn Scene, out: &mut dyn Write) -> io::Result<()> {
         "starts (--from NAME; the first is the default)",
         description.starts.to_vec(),
     )?;
-    line(
-        out,
-        "constraints",
-        names(description.constraints, |c| c.name),
-    )?;
+    let constraints = description.constraints.iter();
+    let constraints = constraints.filter(|constraint| constraint.attitude.is_none());
+    line(out, "constraints", constraints.map(|c| c.name).collect())?;
     line(out, "contacts", names(description.contacts, |c| c.name))?;
     line(out, "frictions", names(description.frictions, |f| f.name))?;
     line(out, "forces", names(description.forces, |f| f.name))?;

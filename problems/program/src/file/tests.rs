@@ -65,6 +65,24 @@ fn mistakes_are_marked_where_they_are() {
     );
 }
 
+#[test]
+fn an_attitude_is_no_effect() {
+    let text = "attitude(body: q), kinetic = dot(body.body_rate, body.body_rate)/2, start(rest: q[0] = 1), force(twist: 1 along body.space_rate[0])";
+    let d = scene("body.lagrange", text)
+        .expect("a declaration")
+        .description();
+    let without = |name: &str| Request {
+        effects: vec![(name.to_owned(), false)],
+        ..Request::default()
+    };
+    assert!(without("twist").effects(d).is_ok());
+    let told = without("body").effects(d).expect_err("no effect");
+    assert_eq!(
+        told.to_string(),
+        "`body` is an attitude, which cannot be left out: without the unit length of its quaternion it is no orientation"
+    );
+}
+
 /// What cannot be kept exactly in an expression can be the value of a parameter.
 #[test]
 fn values_of_parameters_are_doubles() {

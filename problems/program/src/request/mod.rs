@@ -124,6 +124,11 @@ pub enum Refusal {
         /// `q[0], q[1], q[2], q[3]`
         coordinates: String,
     },
+    /// An attitude is to be switched.
+    Attitude {
+        /// Name of the body.
+        body: String,
+    },
     /// The same name twice.
     Repeated {
         /// The name.
@@ -218,6 +223,10 @@ impl fmt::Display for Refusal {
                 f,
                 "`{name}` stands in a `start(…)` of the declaration, where a parameter can set it; here a body is turned by all of {coordinates}, \
                  which are cos(α/2) and sin(α/2) times the axis"
+            ),
+            Refusal::Attitude { body } => write!(
+                f,
+                "`{body}` is an attitude, which cannot be left out: without the unit length of its quaternion it is no orientation"
             ),
             Refusal::Repeated { name } => write!(f, "`{name}` is given twice; give it once"),
             Refusal::Uncounted { axis } => write!(
@@ -480,6 +489,9 @@ pub(crate) fn find_effects(
     let called = |item: Item| item.name(description);
     let found: Vec<Item> = known().filter(|item| means(name, called(*item))).collect();
     match found.is_empty() {
+        true if quaternion(description, name).is_some() => Err(Refusal::Attitude {
+            body: name.to_owned(),
+        }),
         true => Err(Refusal::unknown("effect", name, known().map(called))),
         false => Ok(found),
     }
