@@ -127,6 +127,44 @@ fn loads_of_an_earlier_run_are_forgotten() {
     }
 }
 
+/// Two bobs on rods in the plane.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x[2], y[2]),
+    kinetic = (der(x[0])^2 + der(y[0])^2 + der(x[1])^2 + der(y[1])^2) / 2,
+    potential = 10 * (y[0] + y[1]),
+    constraint(upper: x[0]^2 + y[0]^2 == upper_length^2),
+    constraint(lower: (x[1] - x[0])^2 + (y[1] - y[0])^2 == lower_length^2),
+    start(level: x[0] = upper_length, x[1] = upper_length + lower_length),
+)]
+struct Bobs {
+    upper_length: f64,
+    lower_length: f64,
+}
+
+/// Rows that depend on others in one run are independent in the next: a rod of length zero holds nothing.
+#[test]
+fn rows_aside_in_an_earlier_run_are_forgotten() {
+    let none = Bobs {
+        upper_length: 1.0,
+        lower_length: 0.0,
+    };
+    let mut runner = Simulation::new(&none).runner();
+    let refused = runner.run(none.at(Bobs::LEVEL), 0.0..5.0);
+    refused.expect_err("no force can keep the length of that rod");
+    for k in 0..12 {
+        let bobs = Bobs {
+            upper_length: 0.3 + 0.05 * f64::from(k),
+            lower_length: 1.0 + 0.1 * f64::from(k),
+        };
+        runner.set_scene(&bobs);
+        let level = bobs.at(Bobs::LEVEL);
+        let alone = Simulation::new(&bobs).run(&level, 0.0..5.0);
+        let again = runner.run(&level, 0.0..5.0).expect("runs");
+        assert_same(again, &alone.expect("runs"));
+    }
+}
+
 /// Forces of the feet are shared as they are at an instant, whatever else was looked at before.
 #[test]
 fn samples_do_not_depend_on_one_another() {

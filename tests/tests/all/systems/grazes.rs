@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{METHODS, all_agree, methods_at, run_by};
+use lagrange_tests::{METHODS, all_agree, certified, methods_at, run_by};
 
 /// Two rods that hang; the lower one cannot swing behind the upper one.
 #[derive(Lagrangian, Clone, Debug)]
@@ -141,5 +141,83 @@ fn a_bob_swings_past_what_it_only_touches() {
             let run = run_by(&higher, (method, tolerance), start(), 3.0);
             assert!(!run.events().is_empty(), "{what}: hits");
         }
+    }
+}
+
+/// A bead on a wire whose lowest point is on a floor, at `low`; a wheel turns the plane of the wire.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, z),
+    kinetic = (der(x)^2 + der(y)^2 + der(z)^2) / 2,
+    potential = 10 * z,
+    constraint(wire: z == low + bend * (x^2 + y^2) + steep * (x^2 + y^2)^2),
+    constraint(plane: y * cos(rate * t) == x * sin(rate * t)),
+    contact(floor: z >= low - deep, restitution = bounce),
+)]
+struct Bead {
+    low: f64,
+    bend: f64,
+    steep: f64,
+    rate: f64,
+    deep: f64,
+    bounce: f64,
+}
+
+/// The floor that it touches changes nothing, wherever heights are counted from; one that is a little higher is hit.
+#[test]
+fn a_bead_slides_over_the_lowest_point_of_its_wire() {
+    for (low, bend, steep, rate, bounce, from) in [
+        (0.0, 0.3, 0.0, 0.0, 0.6, 0.3),
+        (0.0, 1.0, 0.0, 2.0, 0.0, 1.0),
+        (0.0, 2.0, 0.7, 0.0, 1.0, 0.5),
+        (0.4, 0.8, 0.0, 1.0, 0.6, 0.7),
+        (0.0, 0.5, 1.0, 3.0, 0.3, 0.4),
+    ] {
+        let bead = Bead {
+            low,
+            bend,
+            steep,
+            rate,
+            deep: 0.0,
+            bounce,
+        };
+        let higher = Bead {
+            deep: -1e-5,
+            ..bead.clone()
+        };
+        let height = low + bend * from * from + steep * from.powi(4);
+        for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-9]) {
+            let start = || state(&[from, 0.0, height], &[0.0, rate * from, 0.0]);
+            let simulation = Simulation::new(&bead).method(method).tolerance(tolerance);
+            let free = simulation.effects(Effects::all().without(Bead::FLOOR));
+            let free = free.run(start(), 0.0..3.0).expect("a run");
+            let run = run_by(&bead, (method, tolerance), start(), 3.0);
+            let what = format!("{bead:?} by {method}");
+            assert!(run.events().is_empty(), "{what}");
+            all_agree(
+                &what,
+                &run.final_state().q,
+                &free.final_state().q,
+                100.0 * tolerance,
+            );
+            if rate == 0.0 {
+                let run = run_by(&higher, (method, tolerance), start(), 3.0);
+                assert!(!run.events().is_empty(), "{what}: hits");
+            }
+        }
+    }
+}
+
+/// The sum of the lengths may be larger than their rounded one: the floor is above the foot then by what rounding makes of it, which is no penetration.
+#[test]
+fn rounding_of_a_gap_without_a_slope_is_no_penetration() {
+    for (upper, lower, mass, from) in [
+        (0.5, 1.807970676603743, 0.5, -0.5),
+        (1.8938243203498186, 0.3, 0.5, -0.5),
+        (0.5, 0.6056732239734838, 1.5, -0.2),
+    ] {
+        let leg = Leg { upper, lower, mass };
+        let run = Simulation::new(&leg).run(state(&[from; 2], &[0.0; 2]), 0.0..1.0);
+        certified(format!("{leg:?}"), &run.expect("a run"));
     }
 }

@@ -87,6 +87,7 @@ mod plates;
 mod poles;
 mod powers;
 mod pressed;
+mod pulled_plate;
 mod pulses;
 mod quaternion;
 mod rebounds;
