@@ -251,6 +251,36 @@ fn slips_that_have_no_value_where_something_else_is_struck_do_not_matter() {
     }
 }
 
+/// A pendulum in x and y.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = weight * y,
+    constraint(rod: x^2 + y^2 == 1),
+    start(level: x = 1),
+)]
+struct Hung {
+    weight: f64,
+}
+
+/// Between the ends of fixed steps the rod has another length, by far more than the tolerance with which switches would be found, and by less than the error
+/// that was asked for.
+#[test]
+fn fixed_steps_within_an_error_are_held_to_that_error() {
+    let bob = Hung { weight: 10.0 };
+    let simulation = Simulation::new(&bob).method(Method::Gauss6 { step: 0.05 });
+    for error in [1e-3, 1e-6, 1e-10] {
+        let run = simulation.clone().error(error);
+        let mut run = run.run(bob.at(Hung::LEVEL), 0.0..3.0).expect("a run");
+        assert_eq!(run.tolerance(), error);
+        let found = certificate(&run);
+        assert!(found.holds(), "{found}");
+        run.coefficients[0] += 1e3 * error;
+        finds(&certificate(&run), &[Subject::Constraints]);
+    }
+}
+
 /// A mass that drifts past a narrow peak.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(

@@ -130,6 +130,16 @@ impl<T: Runnable> Work<T> {
         start: &State<T>,
         span: Range<f64>,
     ) -> Result<(), Error> {
+        let outcome = self.tighten(error, start, span);
+        if self.settings.method.has_fixed_steps() {
+            // They have been chosen for the error, not for a tolerance: nobody has asked for more between their ends.
+            let asked = &mut self.trajectory.asked.tolerance;
+            *asked = asked.max(error);
+        }
+        outcome
+    }
+
+    fn tighten(&mut self, error: f64, start: &State<T>, span: Range<f64>) -> Result<(), Error> {
         if !(1e-15..=0.1).contains(&error) {
             let mut state = start.clone();
             state.name(self.trajectory.description());
@@ -147,8 +157,10 @@ impl<T: Runnable> Work<T> {
         core::mem::swap(&mut self.trajectory, &mut first.trajectory);
         outcome?;
         let (mut factor, mut best, mut stays) = (TIGHTER, f64::INFINITY, 0);
+        // The largest difference since they fall no longer: one of them may be small by chance, and other runs would not have it.
+        let mut largest = f64::INFINITY;
         loop {
-            let mut possible = best / SHARE;
+            let mut possible = largest / SHARE;
             let finer = settings.finer::<T>(factor);
             let finest = finer.is_as_fine_as(&settings);
             if finest && stays < PATIENCE {
@@ -175,7 +187,7 @@ impl<T: Runnable> Work<T> {
                 let estimate = self.trajectory.estimate();
                 let reason = estimate.map(|Estimate { difference, .. }| {
                     let why = match stays == PATIENCE {
-                        true => of_rounding(best),
+                        true => of_rounding(largest, &settings),
                         false => of_tolerance(difference.error(), &settings),
                     };
                     reason(difference, &why)
@@ -190,9 +202,9 @@ impl<T: Runnable> Work<T> {
             }
             let difference = next.difference(self);
             let apart = difference.error();
-            stays = match apart * FALLS > best {
-                true if best.is_finite() => stays + 1,
-                _ => 0,
+            (stays, largest) = match apart * FALLS > best {
+                true if best.is_finite() => (stays + 1, largest.max(apart)),
+                _ => (0, apart),
             };
             best = best.min(apart);
             core::mem::swap(&mut self.trajectory, &mut next.trajectory);
@@ -200,7 +212,11 @@ impl<T: Runnable> Work<T> {
             if apart <= SHARE * error {
                 return Ok(());
             }
-            factor = (SHARE * error / apart).clamp(TIGHTER * TIGHTER, TIGHTER);
+            factor = match stays {
+                0 => (SHARE * error / apart).clamp(TIGHTER * TIGHTER, TIGHTER),
+                // Where steps only round, far shorter ones round far more.
+                _ => TIGHTER,
+            };
             settings = finer;
         }
     }
@@ -235,10 +251,16 @@ fn reason(difference: &Difference, why: &str) -> String {
 }
 
 /// The part of a reason where runs are as exact as numbers are.
-fn of_rounding(best: f64) -> String {
-    let growth = (best / f64::EPSILON).max(1.0).ln();
+fn of_rounding(apart: f64, settings: &Settings) -> String {
+    if settings.method.has_fixed_steps() {
+        return format!(
+            "{apart:.1e} however short the steps are, each of which rounds; end earlier, ask for less, or take the default method, `auto`, \
+             which makes fewer of them"
+        );
+    }
+    let growth = (apart / f64::EPSILON).max(1.0).ln();
     format!(
-        "{best:.1e} however tight the tolerance is, from rounding that grows by e^{growth:.0}; end earlier, or ask \
+        "{apart:.1e} however tight the tolerance is, from rounding that grows by e^{growth:.0}; end earlier, or ask \
          for less"
     )
 }

@@ -288,7 +288,8 @@ impl<T: Scalar> Trajectory<T> {
         &self.effects
     }
 
-    /// Relative and absolute tolerance that was asked for; with [`Simulation::error`](crate::Simulation::error) the one that was found.
+    /// Relative and absolute tolerance that was asked for; with [`Simulation::error`](crate::Simulation::error) the one that was found, and of fixed
+    /// steps, which follow none, the error.
     pub fn tolerance(&self) -> f64 {
         self.asked.tolerance
     }

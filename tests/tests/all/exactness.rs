@@ -272,6 +272,28 @@ fn chaos_says_what_can_be_had() {
     assert!(run.is_ok_and(|run| run.estimate().is_some()));
 }
 
+/// Nothing grows in an oscillation: what can be had by fixed steps ends where more steps round more, and what is told can be had.
+#[test]
+fn fixed_steps_say_what_can_be_had() {
+    let scene = Spring {};
+    for step in [0.5, 0.2] {
+        let method = Method::Gauss6 { step };
+        let within = |error| {
+            let simulation = Simulation::new(&scene).method(method).error(error);
+            simulation.run(scene.at(Spring::PULLED), 0.0..6.0)
+        };
+        let failure = within(1e-15).expect_err("less than rounding");
+        let said = failure.to_string();
+        assert!(said.contains("however short the steps are"), "{said}");
+        let (_, rest) = said.split_once("one of ").expect("what can be had");
+        let (possible, _) = rest.split_once(" can").expect("what can be had");
+        let possible: f64 = possible.parse().expect("a number");
+        let run = within(possible).unwrap_or_else(|failure| panic!("{method}: {said}; {failure}"));
+        let error = (run.final_state().q(Spring::X) - 6.0_f64.cos()).abs();
+        assert!(error <= possible, "{method}: {error:e}");
+    }
+}
+
 #[test]
 fn runners_and_ensembles_keep_the_error_too() {
     let scene = Spring {};
