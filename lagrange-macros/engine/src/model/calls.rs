@@ -122,9 +122,13 @@ impl Elaboration<'_> {
             format!("a product is written with `*`: `{text}*(…)`; an element `{text}[…]`")
         } else if let Some((_, known)) = ALIASES.iter().find(|(alias, _)| *alias == text) {
             format!("write `{known}`")
-        } else if let Some(known) =
-            nearest(text, FUNCTIONS.iter().copied().chain(["sum", "list", "if"]))
-        {
+        } else if let Some(known) = nearest(
+            text,
+            FUNCTIONS
+                .iter()
+                .copied()
+                .chain(["sum", "list", "if", "poisson"]),
+        ) {
             format!("did you mean `{known}`?")
         } else {
             format!("functions are {}", FUNCTIONS.join(", "))

@@ -53,6 +53,10 @@ pub(super) fn leftover(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<()
             let hint = "one condition stands here: write a contact for each gap, and `if(a, if(b, x, y), y)` instead of `if(a and b, x, y)`";
             sink.report(Code::Operator, cursor.here(), &[word, &hint]);
         }
+        (TokenTree::Ident(word), _) if word == "while" => {
+            let hint = "it stands behind the name of a constraint, `constraint(name while contact: a == b)`; a contact has a region, `, where c >= d`";
+            sink.report(Code::Operator, cursor.here(), &[word, &hint]);
+        }
         (TokenTree::Ident(word), _) if word == "as" => {
             let hint = "numbers have no types: leave it away";
             sink.report(Code::RustNotation, cursor.here(), &[word, &hint]);

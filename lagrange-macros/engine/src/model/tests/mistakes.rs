@@ -222,6 +222,18 @@ fn what_is_meant_is_told() {
             "2:14 E001 expected `:` and a name for its four coordinates, `body: q`, found the end",
         ),
         (
+            "attitude(q)",
+            "2:11 E001 expected `:` and a name for its four coordinates, `body: q`, found the end",
+        ),
+        (
+            "contact(c: x >= 0 while t <= 1)",
+            "2:19 E024 `while` is not an operator here; it stands behind the name of a constraint, `constraint(name while contact: a == b)`; a contact has a region, `, where c >= d`",
+        ),
+        (
+            "contact(c: x >= 0, restitution = poison(a))",
+            "2:34 E308 `poison` is not a function; did you mean `poisson`?",
+        ),
+        (
             "dissipation(d: x = -a*der(x))",
             "2:18 E024 `=` is not an operator here; what stands here is one value; a force along a coordinate is an item of its own, `force(name: x = …)`",
         ),

@@ -209,10 +209,12 @@ fn grouped(
 fn attitude(part: &mut Cursor, sink: &mut Diagnostics) -> Option<ItemKind> {
     let body = part.name("the name of a body", sink)?;
     if part.take(":").is_none() {
-        let what = format!(
-            "`:` and a name for its four coordinates, `{}: q`",
-            body.text
-        );
+        // Whoever writes `q` alone has named the coordinates.
+        let name = match body.text.as_str() {
+            "q" => "body",
+            name => name,
+        };
+        let what = format!("`:` and a name for its four coordinates, `{name}: q`");
         part.expected(&what, sink);
         return None;
     }
