@@ -1,6 +1,7 @@
 //! Methods as a study takes them, and the settings that follow: a tolerance each, or a step for methods without.
 
 use crate::names::method_meant;
+use crate::request::Request;
 use core::fmt;
 use core::str::FromStr;
 use lagrange_core::error::Shortest;
@@ -79,7 +80,7 @@ impl FromStr for Family {
 pub struct Setting {
     /// The method, with its step if it has fixed ones.
     pub method: Method,
-    /// Tolerance; to methods with fixed steps it does not matter.
+    /// Tolerance; with fixed steps, which do not follow it, that of a run of which nothing else is asked: constraints are kept to it.
     pub tolerance: f64,
 }
 
@@ -123,15 +124,14 @@ pub(super) fn settings(methods: &[Family], tolerances: &[f64], scale: f64) -> Ve
     let mut settings: Vec<Setting> = Vec::new();
     for family in methods {
         for &tolerance in tolerances {
-            let setting = Setting {
+            let mut setting = Setting {
                 method: family.at(tolerance, scale),
                 tolerance,
             };
-            let same = |known: &Setting| {
-                known.method == setting.method
-                    && (known.tolerance == tolerance || setting.step().is_some())
-            };
-            if !settings.iter().any(same) {
+            if setting.step().is_some() {
+                setting.tolerance = Request::default().tolerance;
+            }
+            if !settings.contains(&setting) {
                 settings.push(setting);
             }
         }
@@ -170,6 +170,9 @@ mod tests {
             "rk4 with steps of 0.01 s",
         ];
         assert_eq!(found, wanted);
+        // As in a run that is given the step alone.
+        let alone = settings(&methods[2..3], &[1e-3], 2.0)[0].tolerance;
+        assert_eq!(alone, Request::default().tolerance);
         for family in Family::ALL {
             assert_eq!(family.to_string().parse(), Ok(family));
         }
