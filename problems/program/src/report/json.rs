@@ -114,6 +114,8 @@ pub(super) struct Switch {
     undetermined_after: Vec<String>,
     impulses: Numbers,
     #[serde(skip_serializing_if = "is_false")]
+    impulses_undetermined: bool,
+    #[serde(skip_serializing_if = "is_false")]
     restitution_lowered: bool,
     #[serde(skip_serializing_if = "is_false")]
     ambiguous: bool,
@@ -356,6 +358,7 @@ pub(super) fn switch(outcome: &Outcome, index: usize, event: &Event<f64>) -> Swi
         outputs_after: outputs(description, after),
         undetermined_after: flagged(description, &event.undetermined_after),
         impulses: rows(description, &event.impulses),
+        impulses_undetermined: event.impulses_undetermined,
         restitution_lowered: event.restitution_lowered,
         ambiguous: event.ambiguous,
         other_impacts: others.collect(),
@@ -465,9 +468,35 @@ fn counts(outcome: &Outcome) -> Counts {
 #[cfg(test)]
 mod tests {
     use crate::file::scene;
-    use crate::report::CORNER;
+    use crate::report::{CORNER, PLANK};
     use crate::request::Request;
     use serde_json::Value;
+
+    /// It falls for 0.2 s, and each foot may take any part of m (1 + e) v = 3 N s with the others.
+    #[test]
+    fn impulses_that_are_not_determined_are_marked() {
+        let scene = scene("plank.lagrange", PLANK).expect("a declaration");
+        let outcome = scene.run(&Request::default()).expect("a run");
+        let mut bytes = Vec::new();
+        super::write(&outcome, &mut bytes).expect("memory");
+        let whole: Value = serde_json::from_slice(&bytes).expect("JSON");
+        let events = whole["events"].as_array().expect("events");
+        assert_eq!(events.len(), 3, "{whole:#}");
+        for event in events {
+            assert_eq!(event["impulses_undetermined"], true, "{event:#}");
+            let impulses = ["foot[0]", "foot[1]", "foot[2]"].map(|name| &event["impulses"][name]);
+            let sum: f64 = impulses.iter().filter_map(|impulse| impulse.as_f64()).sum();
+            assert!((sum - 3.0).abs() < 1e-9, "{event:#}");
+        }
+        let mut lines = Vec::new();
+        crate::report::jsonl::write(&outcome, &mut lines).expect("memory");
+        let lines = String::from_utf8(lines).expect("text");
+        assert_eq!(
+            lines.matches("\"impulses_undetermined\":true").count(),
+            3,
+            "{lines}"
+        );
+    }
 
     /// The ball sticks to one wall and slides along the other: of two ways one is the mirror image of the other.
     #[test]

@@ -136,6 +136,12 @@ const CORNER: &str = "
     friction(ceiling on top: slip = der(x) - r * der(phi), static = mu, kinetic = mu/2),
     start(thrown: der(x) = 1, der(y) = 1), until = 1.5,";
 
+/// A plank that falls flat on three feet, for tests of several reports.
+#[cfg(test)]
+const PLANK: &str = "
+    coordinates(y, phi), kinetic = (der(y)^2 + der(phi)^2) / 2, potential = 10 * y,
+    contact(foot[k in 0..3]: y + (k - 1) * phi >= 0, restitution = 1/2), start(level: y = 1/5), until = 0.3,";
+
 #[cfg(test)]
 mod tests {
     use super::significant;

@@ -48,6 +48,12 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
             open.join(", ")
         )?;
     }
+    if let Some(at) = times(outcome, |event| event.impulses_undetermined) {
+        writeln!(
+            out,
+            "\nNot determined: how the impulses at {at} are shared out; shown are the least that contacts and friction allow."
+        )?;
+    }
     let without = outcome.without_value();
     if !without.is_empty() {
         let told = |(output, first): &(&str, f64)| {
@@ -116,32 +122,33 @@ fn choice(event: &Event<f64>) -> Choice {
     }
 }
 
-/// Where a run could have gone on in another way of this kind, if anywhere.
-fn told_of(kind: Choice, outcome: &Outcome) -> Option<String> {
+/// When there are such events, if there are any; of many the first ones.
+fn times(outcome: &Outcome, such: impl Fn(&Event<f64>) -> bool) -> Option<String> {
     let groups = instants(&outcome.events);
-    let mut open: Vec<String> = groups
+    let mut found: Vec<String> = groups
         .iter()
-        .filter(|(_, group)| {
-            group
-                .iter()
-                .any(|event| event.ambiguous && choice(event) == kind)
-        })
+        .filter(|(_, group)| group.iter().any(&such))
         .map(|(_, group)| format!("t = {} s", time(group[0].time, outcome.lasts())))
         .collect();
-    open.dedup();
-    let told = match open.len() > FEW {
+    found.dedup();
+    let told = match found.len() > FEW {
         true => MANY,
-        false => open.len(),
+        false => found.len(),
     };
-    let more = match open.len() - told {
+    let more = match found.len() - told {
         0 => String::new(),
         more => format!(" and {more} times more"),
     };
-    let at = open[..told].join(", ");
+    (told > 0).then(|| found[..told].join(", ") + &more)
+}
+
+/// Where a run could have gone on in another way of this kind, if anywhere.
+fn told_of(kind: Choice, outcome: &Outcome) -> Option<String> {
+    let at = times(outcome, |event| event.ambiguous && choice(event) == kind)?;
     let (what, others) = kind;
-    (told > 0).then(|| {
-        format!("More than one {what} is possible at {at}{more}: a run takes one{others}.")
-    })
+    Some(format!(
+        "More than one {what} is possible at {at}: a run takes one{others}."
+    ))
 }
 
 /// Of a force's impulse, `N s`.
@@ -248,7 +255,7 @@ pub(super) fn page() -> Table {
 mod tests {
     use super::{Decimals, time};
     use crate::file::scene;
-    use crate::report::CORNER;
+    use crate::report::{CORNER, PLANK};
     use crate::request::Request;
 
     /// The story of a run, with single blanks.
@@ -366,6 +373,21 @@ mod tests {
             "{lines:#?}"
         );
         assert!(lines.iter().all(|line| !line.starts_with("Not determined")));
+    }
+
+    #[test]
+    fn impulses_that_are_not_determined_are_told() {
+        let told = "Not determined: how the impulses at t = 0.200000 s are shared out; shown are the least that contacts and friction allow.";
+        assert!(
+            story(PLANK).iter().any(|line| line == told),
+            "{:#?}",
+            story(PLANK)
+        );
+        let two = story(&PLANK.replace("in 0..3", "in 0..2"));
+        assert!(
+            two.iter().all(|line| !line.contains("impulses")),
+            "{two:#?}"
+        );
     }
 
     /// Which of the ball's frictions sticks nothing says.
