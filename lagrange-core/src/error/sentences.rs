@@ -239,15 +239,17 @@ impl fmt::Display for Error {
             ),
             Error::Limit { time, what, limit } => write!(
                 f,
-                "t = {}: more than {limit} {}; if this is intended, end the run earlier{}",
+                "t = {}: more than {limit} {}; {}",
                 Shortest(*time),
                 what.strip_suffix('s')
                     .filter(|_| *limit == 1)
                     .unwrap_or(what),
                 match *what {
-                    "events" => " or raise the limit (`max_events`, `--max-events`)",
-                    "steps" => " or raise the limit (`max_steps`)",
-                    _ => "",
+                    "events" =>
+                        "if this is intended, end the run earlier or raise the limit (`max_events`, `--max-events`)",
+                    "steps" =>
+                        "if this is intended, end the run earlier or raise the limit (`max_steps`)",
+                    _ => "a run takes one, and the others are not known",
                 }
             ),
             Error::OutOfReach {

@@ -3,7 +3,7 @@
 use crate::request::{Refusal, Request};
 use crate::scene::{Beginning, Scene};
 use lagrange_core::prelude::*;
-use lagrange_core::system::Description;
+use lagrange_core::system::{AnySystem, Description};
 
 /// The feasible modes of an instant.
 pub struct Feasible {
@@ -15,10 +15,12 @@ pub struct Feasible {
     pub time: f64,
     /// One instant for each mode, with its forces and accelerations; first the one that a run takes.
     pub modes: Vec<Instant<f64>>,
+    /// Whether more modes are possible than are all tried: then there is only the one that a run takes.
+    pub many: bool,
 }
 
 impl dyn Scene + '_ {
-    /// All modes in which the motion can go on at the start, or at a later time of the run.
+    /// All modes in which the motion can go on at the start, or at a later time of the run; of more than can all be tried the one that a run takes.
     ///
     /// # Errors
     /// The request makes no sense, the start does not exist, the run does not come so far, or there is no mode.
@@ -40,7 +42,10 @@ impl dyn Scene + '_ {
                 (time, run.final_state().clone())
             }
         };
-        let modes = simulation.feasible_modes(time, &state);
+        let (modes, many) = match simulation.feasible_modes(time, &state) {
+            Err(Error::Limit { .. }) => (taken(&simulation, time, &state), true),
+            modes => (modes, false),
+        };
         Ok(Feasible {
             scene: self.name(),
             description: system.description(),
@@ -49,6 +54,18 @@ impl dyn Scene + '_ {
                 true => Refusal::Run,
                 false => Refusal::Begin,
             })?,
+            many,
         })
     }
+}
+
+/// The mode that a run takes.
+fn taken(
+    simulation: &Simulation<'_, AnySystem<f64>>,
+    time: f64,
+    state: &State<f64>,
+) -> Result<Vec<Instant<f64>>, Error> {
+    let run = simulation.run(state.clone(), time..time);
+    let run = run.map_err(|failure| failure.error)?;
+    Ok(vec![run.sampler().at(time)?])
 }

@@ -93,6 +93,10 @@ pub fn table(found: &Feasible, mut out: impl Write) -> io::Result<()> {
     writeln!(out, "{}\n", table.trim_fmt())?;
     let time = Shortest(found.time);
     match found.modes.len() {
+        _ if found.many => writeln!(
+            out,
+            "At t = {time} s a run goes on in this mode; more are possible than are all tried, and the others are not known."
+        ),
         1 => writeln!(
             out,
             "At t = {time} s the motion can go on in this mode only."
@@ -109,6 +113,9 @@ struct Page {
     scene: &'static str,
     time: f64,
     modes: Vec<Line>,
+    /// More modes are possible than are all tried: the one listed is that of a run.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    others_unknown: bool,
 }
 
 #[derive(Serialize)]
@@ -145,6 +152,7 @@ pub fn json(found: &Feasible, mut out: impl Write) -> io::Result<()> {
         scene: found.scene,
         time: found.time,
         modes: found.modes.iter().map(line).collect(),
+        others_unknown: found.many,
     };
     serde_json::to_writer_pretty(&mut out, &page).map_err(io::Error::from)?;
     writeln!(out)
@@ -173,6 +181,32 @@ pub fn csv(found: &Feasible, out: impl Write) -> io::Result<()> {
 
 #[cfg(test)]
 mod tests {
+    use super::table;
+
+    /// Six boxes in a stack: each layer carries what is above it, and nothing pushes.
+    #[test]
+    fn of_more_modes_than_are_tried_the_one_that_a_run_takes_is_told() {
+        let declared = "parameters(mu = 0.5), coordinates(x[6], y[6]), kinetic = sum(k in 0..6: (der(x[k])^2 + der(y[k])^2) / 2),
+            potential = sum(k in 0..6: 10 * y[k]), contact(ground: y[0] >= 0), contact(up[k in 0..5]: y[k+1] >= y[k]),
+            friction(rough on ground: slip = der(x[0]), static = mu), friction(rub[k in 0..5] on up[k]: slip = der(x[k+1] - x[k]), static = mu),
+            start(still: x[0] = 0)";
+        let scene = crate::file::scene("stack.lagrange", declared).expect("a declaration");
+        let found = scene
+            .modes(&Default::default(), None)
+            .expect("the mode of a run");
+        let mut text = Vec::new();
+        table(&found, &mut text).expect("memory");
+        let text = String::from_utf8(text).expect("text");
+        let [stack] = &found.modes[..] else {
+            panic!("{text}");
+        };
+        assert!(
+            (stack.forces[0] - 60.0).abs() < 1e-9 && (stack.forces[5] - 10.0).abs() < 1e-9,
+            "{text}"
+        );
+        assert!(text.contains("the others are not known"), "{text}");
+    }
+
     /// Ten sliders on ten frictions: a table wider than a page keeps its names and numbers whole.
     #[test]
     fn no_name_of_an_acceleration_is_broken() {
@@ -181,7 +215,7 @@ mod tests {
         let scene = crate::file::scene("sliders.lagrange", declared).expect("a declaration");
         let found = scene.modes(&Default::default(), None).expect("modes");
         let mut text = Vec::new();
-        super::table(&found, &mut text).expect("memory");
+        table(&found, &mut text).expect("memory");
         let text = String::from_utf8(text).expect("text");
         let head = text.lines().next().expect("a header");
         for k in 0..10 {
