@@ -248,7 +248,7 @@ impl fmt::Display for Error {
                     "events" =>
                         "if this is intended, end the run earlier or raise the limit (`max_events`, `--max-events`)",
                     "steps" =>
-                        "if this is intended, end the run earlier or raise the limit (`max_steps`)",
+                        "if this is intended, end the run earlier or raise the limit (in Rust `max_steps`)",
                     _ => "a run takes one, and the others are not known",
                 }
             ),
