@@ -35,9 +35,16 @@ impl dyn Scene + '_ {
                     0 => Refusal::Begin(failure.error),
                     _ => Refusal::Run(failure.error),
                 })?;
-                let (first, last) = (run.first_time(), run.last_time());
+                let last = run.last_time();
                 if last < time {
-                    return Err(Refusal::Run(Error::OutsideTrajectory { time, first, last }));
+                    let d = run.description();
+                    let by = run.events().last();
+                    let by = by.map(|by| format!(" ({} {})", by.subject.name(d), by.kind));
+                    return Err(Refusal::Ended {
+                        asked: time,
+                        last,
+                        by: by.unwrap_or_default(),
+                    });
                 }
                 (time, run.final_state().clone())
             }

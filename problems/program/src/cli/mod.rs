@@ -122,9 +122,11 @@ impl Trouble {
     fn refused(refusal: Refusal) -> Self {
         match refusal {
             Refusal::Run(Error::Interrupted { .. }) => Trouble::Interrupted(refusal.to_string()),
-            Refusal::Start(_) | Refusal::Begin(_) | Refusal::Run(_) | Refusal::Reference { .. } => {
-                Trouble::failed(refusal)
-            }
+            Refusal::Start(_)
+            | Refusal::Begin(_)
+            | Refusal::Run(_)
+            | Refusal::Ended { .. }
+            | Refusal::Reference { .. } => Trouble::failed(refusal),
             _ => Trouble::usage(refusal),
         }
     }

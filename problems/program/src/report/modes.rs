@@ -207,6 +207,19 @@ mod tests {
         assert!(text.contains("the others are not known"), "{text}");
     }
 
+    /// It falls 1.25 m in 0.5 s.
+    #[test]
+    fn what_ends_a_run_before_the_time_that_is_asked_for_is_told() {
+        let declared = "coordinates(y), kinetic = der(y)^2 / 2, potential = 10 * y, stop(ground: y <= 0), start(high: y = 1.25), until = 1";
+        let scene = crate::file::scene("falls.lagrange", declared).expect("a declaration");
+        let refused = scene.modes(&Default::default(), Some(0.75)).err();
+        let told = refused.expect("an end").to_string();
+        assert_eq!(
+            told,
+            "the run ends at t = 0.5 (ground stop), before t = 0.75; ask for an earlier time"
+        );
+    }
+
     /// Ten sliders on ten frictions: a table wider than a page keeps its names and numbers whole.
     #[test]
     fn no_name_of_an_acceleration_is_broken() {

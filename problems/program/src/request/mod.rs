@@ -9,6 +9,7 @@ use core::fmt;
 use core::ops::RangeInclusive;
 use event::event;
 use lagrange_core::effects::Item;
+use lagrange_core::error::Shortest;
 use lagrange_core::prelude::*;
 use lagrange_core::system::{AnySystem, Description};
 use std::collections::BTreeSet;
@@ -166,6 +167,15 @@ pub enum Refusal {
     Begin(Error),
     /// The run fails.
     Run(Error),
+    /// A time after the end of the run.
+    Ended {
+        /// What was asked for, s.
+        asked: f64,
+        /// When the run ends, s.
+        last: f64,
+        /// What ends it, ` (floor stop)`; empty if nothing has happened.
+        by: String,
+    },
     /// More points than a sweep may have.
     TooMany {
         /// How many.
@@ -251,6 +261,12 @@ impl fmt::Display for Refusal {
             Refusal::Whole { asked, alone } => write!(
                 f,
                 "`{alone}` is read from the whole run: leave out what follows it in `{asked}`; --end-after EVENT ends runs earlier"
+            ),
+            Refusal::Ended { asked, last, by } => write!(
+                f,
+                "the run ends at t = {}{by}, before t = {}; ask for an earlier time",
+                Shortest(*last),
+                Shortest(*asked)
             ),
             Refusal::Begin(error) | Refusal::Run(error) => write!(f, "{error}"),
             Refusal::Start(error) => write!(f, "no such start: {error}"),
