@@ -117,10 +117,14 @@ impl<T: Scalar> Run<T> {
                 self.state_at_end(looked);
             }
             let (motion, guards) = match self.evaluate_scratch(looked) {
-                Ok(()) => (
-                    self.motion_defect(whole, looked),
-                    self.guard_defect(&hit, looked),
-                ),
+                Ok(()) => {
+                    // How far guards are off counts where it bounds the step.
+                    let guards = match !guarded && self.guards_fit(&hit, looked) {
+                        true => 0.0,
+                        false => self.guard_defect(&hit, looked),
+                    };
+                    (self.motion_defect(whole, looked), guards)
+                }
                 Err(_) => (f64::INFINITY, f64::INFINITY),
             };
             let guards = match rests {
@@ -343,7 +347,15 @@ impl<T: Scalar> Run<T> {
         }
     }
 
-    /// The same of the guards.
+    /// Whether the polynomials of the guards are clearly good enough at part `looked` of the step, which ends with `hit`.
+    fn guards_fit(&mut self, hit: &Hit, looked: f64) -> bool {
+        let located = !matches!(hit, Hit::Nothing);
+        let (curves, dynamics) = (&self.locator.polynomials, &mut self.dynamics);
+        let tolerance = self.settings.tolerance;
+        curves.fit(dynamics, &self.now.mode, looked, tolerance, located)
+    }
+
+    /// How far the guards are off there.
     pub(super) fn guard_defect(&mut self, hit: &Hit, looked: f64) -> f64 {
         let defect = self.guard_defect_beyond([0.0; 2], hit, looked);
         if defect <= 1.0 {

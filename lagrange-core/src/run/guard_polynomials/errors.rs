@@ -29,6 +29,28 @@ struct GuardError {
 }
 
 impl GuardPolynomials {
+    /// Whether all polynomials are clearly good enough at part `s` of the step, where `dynamics` holds the values: on the side of zero on which the guards
+    /// are, and off by no more than what is allowed for certain, also of guards that may be `located` there. Most steps satisfy that; if not,
+    /// [`Self::defect`] tells.
+    #[inline(never)]
+    pub(in crate::run) fn fit<T: Scalar>(
+        &self,
+        dynamics: &mut Dynamics<T>,
+        mode: &Mode,
+        s: f64,
+        tolerance: f64,
+        located: bool,
+    ) -> bool {
+        if !self.watches.is_empty() {
+            dynamics.report_value();
+        }
+        self.compared(dynamics, mode, s)
+            .all(|(guard, c, [found, value])| {
+                let allowed = allowance::<T>(guard, tolerance, located) * size(value, c);
+                (found - value).abs() <= allowed && (found < 0.0) == (value < 0.0)
+            })
+    }
+
     /// How far the polynomials are off at part `s` of the step, in units of what is allowed by the tolerance and, of forces, by their blur and rounding;
     /// `dynamics` holds the values of the state there, `known` tells of a guard whether this is its root, and how large what makes it is at least.
     ///
@@ -133,27 +155,40 @@ impl GuardPolynomials {
             dynamics.report_value();
         }
         let dynamics = &*dynamics;
-        let curves = self.list.iter();
-        let curves = curves.zip(self.coefficients.chunks_exact(self.width));
-        curves.enumerate().map(move |(index, (curve, c))| {
-            let (located, least) = known(curve.guard);
-            let [blur, of_forces] = match curve.guard.is_force() {
+        let compared = self.compared(dynamics, mode, s);
+        compared.map(move |(guard, c, [found, value])| {
+            let (located, least) = known(guard);
+            let [blur, of_forces] = match guard.is_force() {
                 true => [blur, of_forces],
                 false => [0.0; 2],
             };
-            let allowed = allowance::<T>(curve.guard, tolerance, located).max(blur);
-            let value = self.value(index, mode, dynamics);
-            let found = if s == 1.0 { curve.sums.end } else { at(c, s) };
+            let allowed = allowance::<T>(guard, tolerance, located).max(blur);
             let error = (found - value).abs();
             GuardError {
                 error,
                 allowed: allowed * size(value, c).max(least),
                 rounding: self
-                    .rounding(error, curve.guard, dynamics)
+                    .rounding(error, guard, dynamics)
                     .max(of_forces)
-                    .max(self.change_in_no_time(curve.guard, c, value, dynamics)),
+                    .max(self.change_in_no_time(guard, c, value, dynamics)),
                 other_side: !located && (found < 0.0) != (value < 0.0),
             }
+        })
+    }
+
+    /// All guards with their polynomials: what these say at part `s` of the step, and the value there.
+    #[inline(always)]
+    fn compared<T: Scalar>(
+        &self,
+        dynamics: &Dynamics<T>,
+        mode: &Mode,
+        s: f64,
+    ) -> impl Iterator<Item = (Guard, &[f64], [f64; 2])> {
+        let curves = self.list.iter();
+        let curves = curves.zip(self.coefficients.chunks_exact(self.width));
+        curves.enumerate().map(move |(index, (curve, c))| {
+            let found = if s == 1.0 { curve.sums.end } else { at(c, s) };
+            (curve.guard, c, [found, self.value(index, mode, dynamics)])
         })
     }
 
