@@ -14,7 +14,7 @@ use crate::integrate::Method;
 use crate::mode::Mode;
 use crate::precompiled::Runnable;
 use crate::settings::{Goal, Settings};
-use crate::trajectory::{Difference, Estimate, State, Summary};
+use crate::trajectory::{Difference, Estimate, State, Summary, Trajectory};
 use core::ops::Range;
 
 /// Error of a second run over that of the first.
@@ -88,6 +88,8 @@ impl Settings {
         };
         Settings {
             careful: !self.method.has_fixed_steps(),
+            // Its events and its end are compared.
+            record: false,
             ..second
         }
     }
@@ -107,15 +109,28 @@ impl Settings {
 }
 
 impl<T: Runnable> Work<T> {
-    /// Runs as asked, and once more to see how far off that is.
-    pub(super) fn run_twice(&mut self, start: &State<T>, span: Range<f64>) -> Result<(), Error> {
-        self.run_once(start, span.clone())?;
+    /// Runs as asked, given away piece by piece, and once more to see how far off that is.
+    pub(super) fn run_twice(
+        &mut self,
+        start: &State<T>,
+        span: Range<f64>,
+        bytes: usize,
+        take: &mut dyn FnMut(&Trajectory<T>),
+    ) -> Result<(), Error> {
+        let mut events = Vec::new();
+        self.execute(start, span.clone(), bytes, &mut |piece| {
+            events.extend(Summary::of(piece).events);
+            take(piece);
+        })?;
+        let mut first = Summary::of(&self.trajectory);
+        events.append(&mut first.events);
+        first.events = events;
         let settings = self.settings.second::<T>();
         let (second, outcome) = self.another(&settings, start, span);
         if let Err(error @ Error::Interrupted { .. }) = outcome {
             return Err(error);
         }
-        let mut difference = self.difference(&second);
+        let mut difference = first.compare(&Summary::of(&second.trajectory));
         if let Err(error) = outcome {
             difference.ends(second.trajectory.last_time(), &error);
         }

@@ -49,7 +49,7 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
     /// The same, with a memory of the motion that does not grow with its length: about every so many `bytes` what there is of it is
     /// given to `take`, as the trajectory of a run of its own (but its work counts from the beginning), and forgotten. It is cut between two
     /// steps at a time when nothing happens; where there is none before twice as many bytes, just after what has happened. The trajectory that
-    /// stays is the last piece. A run whose error is asked for is one piece.
+    /// stays is the last piece, which has the estimate if one was asked for. A run whose error is asked for is one piece.
     ///
     /// # Errors
     /// As of [`Self::run`].
@@ -60,11 +60,8 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
         bytes: usize,
         mut take: impl FnMut(&Trajectory<S::Scalar>),
     ) -> Result<(), Error> {
-        let start = start.borrow();
-        match self.work.settings.goal {
-            Goal::Tolerance => self.work.execute(start, span, bytes, &mut take),
-            Goal::Estimate | Goal::Error(_) => self.work.run(start, span),
-        }
+        self.work
+            .run_in_pieces(start.borrow(), span, bytes, &mut take)
     }
 
     /// Begins a run without going on with it.
@@ -166,9 +163,20 @@ impl<T: Runnable> Work<T> {
 
     /// See [`Runner::run`].
     fn run(&mut self, start: &State<T>, span: Range<f64>) -> Result<(), Error> {
+        self.run_in_pieces(start, span, usize::MAX, &mut |_| ())
+    }
+
+    /// See [`Runner::run_in_pieces`].
+    fn run_in_pieces(
+        &mut self,
+        start: &State<T>,
+        span: Range<f64>,
+        bytes: usize,
+        take: &mut dyn FnMut(&Trajectory<T>),
+    ) -> Result<(), Error> {
         match self.settings.goal {
-            Goal::Tolerance => self.run_once(start, span),
-            Goal::Estimate => self.run_twice(start, span),
+            Goal::Tolerance => self.execute(start, span, bytes, take),
+            Goal::Estimate => self.run_twice(start, span, bytes, take),
             Goal::Error(error) => self.run_within(error, start, span),
         }
     }
@@ -178,7 +186,8 @@ impl<T: Runnable> Work<T> {
         self.execute(start, span, usize::MAX, &mut |_| ())
     }
 
-    fn execute(
+    /// One run, given away piece by piece.
+    pub(super) fn execute(
         &mut self,
         start: &State<T>,
         span: Range<f64>,

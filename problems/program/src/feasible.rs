@@ -30,7 +30,8 @@ impl dyn Scene + '_ {
         let (time, state) = match at.filter(|time| *time > 0.0) {
             None => (0.0, start),
             Some(time) => {
-                let run = simulation.run(start, 0.0..time);
+                // Where it comes to is all that is read of it.
+                let run = simulation.clone().record(false).run(start, 0.0..time);
                 let run = run.map_err(|failure| match failure.trajectory.work().steps {
                     0 => Refusal::Begin(failure.error),
                     _ => Refusal::Run(failure.error),

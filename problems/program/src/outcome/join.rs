@@ -9,6 +9,7 @@ impl Outcome {
     /// Goes on with the next piece, which begins in the mode in which this one ends.
     pub(crate) fn join(&mut self, next: Outcome) {
         (self.work, self.failure) = (next.work, next.failure);
+        self.estimate = next.estimate;
         let (Some(phase), [first, rest @ ..]) = (self.phases.last_mut(), &next.phases[..]) else {
             return;
         };
