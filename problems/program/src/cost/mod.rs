@@ -1,12 +1,13 @@
 //! What each effect of a scene costs: operations and time of a right-hand side in every mode, and of a whole run.
 //!
 //! A right-hand side is what a stepper asks for again and again: the accelerations of all coordinates. It is evaluated in
-//! the middle of the first phase of each mode that the run goes through. An effect's share is the difference to the
-//! same mode without it; where that is nothing, the effect does not act there. All times are taken in turn, the shortest
-//! of the rounds counts.
+//! the middle of the first phase of each mode that the run goes through, or of the part of that phase in the first piece of a
+//! long run that has it. An effect's share is the difference to the same mode without it; where that is nothing, the effect
+//! does not act there. All times are taken in turn, the shortest of the rounds counts.
 
 mod right_side;
 
+use crate::outcome::pieces::PIECE;
 use crate::progress::Progress;
 use crate::request::{Refusal, Request};
 use crate::scene::{Beginning, Scene};
@@ -102,12 +103,12 @@ fn measure(
     progress: &Progress,
 ) -> Result<Costs, Error> {
     let d = system.description();
-    let trajectory = simulation
-        .clone()
-        .effects(effects.clone())
-        .run(start.clone(), 0.0..until)
-        .map_err(|failure| failure.error)?;
-    let places = places(&trajectory);
+    let places = met(
+        &simulation.clone().effects(effects.clone()),
+        start,
+        until,
+        PIECE,
+    )?;
     let items: Vec<Item> = Item::all(d)
         .filter(|item| !matches!(item, Item::Observe(_) | Item::Stop(_) | Item::Mark(_)))
         .filter(|item| effects.includes(d, *item))
@@ -147,6 +148,27 @@ fn measure(
         effects: items.into_iter().zip(costs.zip(runs)).map(effect).collect(),
         run,
     })
+}
+
+/// The places of all modes that a run meets, of which so many bytes are kept at a time.
+fn met(
+    simulation: &Simulation<'_, AnySystem<f64>>,
+    start: &State<f64>,
+    until: f64,
+    bytes: usize,
+) -> Result<Vec<Place>, Error> {
+    let mut met: Vec<Place> = Vec::new();
+    let mut meet = |piece: &Trajectory| {
+        for place in places(piece) {
+            if met.iter().all(|known| known.mode != place.mode) {
+                met.push(place);
+            }
+        }
+    };
+    let mut runner = simulation.runner();
+    runner.run_in_pieces(start, 0.0..until, bytes, &mut meet)?;
+    meet(runner.trajectory());
+    Ok(met)
 }
 
 /// The equations of motion with these effects, in the mode of each place; none where they cannot be evaluated.
@@ -214,5 +236,29 @@ impl<'a> WholeRun<'a> {
         let done = self.runner.run(black_box(self.start), 0.0..self.until);
         let _ = black_box(done.is_ok());
         self.best = self.best.min(begin.elapsed().as_secs_f64());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A ball bounces on a floor and comes to rest: in flight, and at rest.
+    #[test]
+    fn pieces_meet_the_same_modes() {
+        let declared = "coordinates(y), kinetic = der(y)^2/2, potential = 9.81*y, contact(floor: y >= 0, restitution = 1/2),
+            potential(spring: sin(y)^2), start(up: y = 1), until = 5,";
+        let scene = crate::file::scene("ball.lagrange", declared).expect("a declaration");
+        let request = Request::default();
+        let begun = scene.beginning(&request).expect("a beginning");
+        let simulation = request.simulation(&begun.system).expect("a simulation");
+        let modes = |bytes| {
+            let met = met(&simulation, &begun.start, begun.until, bytes).expect("a run");
+            met.into_iter()
+                .map(|place| place.mode.contacts[0])
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(modes(usize::MAX), [false, true]);
+        assert_eq!(modes(3000), [false, true]);
     }
 }

@@ -129,6 +129,27 @@ mod tests {
         assert!(certificates.iter().all(|c| c.holds()));
     }
 
+    /// The second run is compared with the events of all pieces, not with those of the last one.
+    #[test]
+    fn pieces_have_the_estimate_of_the_whole_run() {
+        let belt = belt();
+        let request = Request {
+            tolerance: 1e-6,
+            estimate: true,
+            ..Request::default()
+        };
+        let run = |bytes| belt.run_in_pieces(&request, bytes).expect("a run");
+        let [whole, joined] = [usize::MAX, 3000].map(run);
+        let told = |run: &Outcome| run.estimate.clone().expect("an estimate").difference;
+        assert_eq!(told(&joined).events.len(), whole.events.len());
+        let [whole, joined] = [&whole, &joined].map(|run| told(run).error());
+        assert!((1e-9..1e-3).contains(&whole), "{whole:e}");
+        assert!(
+            (joined - whole).abs() < 1e-6 * whole,
+            "{joined:e} {whole:e}"
+        );
+    }
+
     #[test]
     fn a_film_of_pieces_shows_the_same() {
         let belt = belt();
