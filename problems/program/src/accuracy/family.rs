@@ -24,8 +24,9 @@ pub enum Family {
 pub type ParseFamilyError = ParseMethodError;
 
 impl Family {
-    /// Every method.
-    pub const ALL: [Family; 7] = [
+    /// Every method, first what a run uses unless asked otherwise.
+    pub const ALL: [Family; 8] = [
+        Family::Method(Method::Auto),
         Family::Method(Method::Taylor),
         Family::Method(Method::DormandPrince853),
         Family::Method(Method::DormandPrince54),
@@ -153,6 +154,7 @@ pub fn family(name: &str) -> Result<Family, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::request::Request;
 
     #[test]
     fn tolerances_and_steps() {
@@ -176,5 +178,10 @@ mod tests {
         for family in Family::ALL {
             assert_eq!(family.to_string().parse(), Ok(family));
         }
+    }
+
+    #[test]
+    fn what_a_run_uses_by_default_is_measured_first() {
+        assert_eq!(Family::ALL[0], Family::Method(Request::default().method));
     }
 }

@@ -25,7 +25,7 @@ pub(super) fn draw<'a>(root: &Area<'a>, look: usize, (x, y): (i32, i32)) -> Draw
         }
         Ok(())
     };
-    match look % 7 {
+    match look % 8 {
         0 => {
             root.draw(&Circle::new((x, y), px(5), colour.filled()))?;
             root.draw(&Circle::new((x, y), px(5), WHITE.stroke_width(FINE)))
@@ -35,6 +35,7 @@ pub(super) fn draw<'a>(root: &Area<'a>, look: usize, (x, y): (i32, i32)) -> Draw
         3 => polygon(&[(0.0, -6.2), (6.2, 0.0), (0.0, 6.2), (-6.2, 0.0)]),
         4 => polygon(&[(0.0, 6.0), (5.6, -4.0), (-5.6, -4.0)]),
         5 => strokes([[(-4.2, -4.2), (4.2, 4.2)], [(-4.2, 4.2), (4.2, -4.2)]]),
+        6 => polygon(&[(-2.5, -6.0), (2.5, -6.0), (2.5, 6.0), (-2.5, 6.0)]),
         _ => strokes([[(-5.5, 0.0), (5.5, 0.0)], [(0.0, -5.5), (0.0, 5.5)]]),
     }
 }
