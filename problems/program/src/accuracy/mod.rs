@@ -161,7 +161,7 @@ fn measure(
 
 /// Everything about a setting but its time.
 fn judge(motion: &Motion<'_>, setting: Setting, reference: &Reference) -> Result<Measured, String> {
-    let trajectory = motion.run(setting).map_err(|error| error.to_string())?;
+    let trajectory = motion.run(setting)?;
     let Difference {
         state_error,
         event_error,

@@ -3,6 +3,7 @@
 use super::Setting;
 use crate::film::drift;
 use core::hint::black_box;
+use lagrange_core::error::Shortest;
 use lagrange_core::prelude::*;
 use lagrange_core::system::AnySystem;
 use std::time::Instant;
@@ -36,10 +37,19 @@ impl Motion<'_> {
     }
 
     /// Runs it.
-    pub(super) fn run(&self, setting: Setting) -> Result<Trajectory, Error> {
+    ///
+    /// # Errors
+    /// Why it ended early, for who can end it earlier still: no option raises the limits of a study.
+    pub(super) fn run(&self, setting: Setting) -> Result<Trajectory, String> {
         self.simulation(setting)
             .run(self.start.clone(), 0.0..self.until)
-            .map_err(|stopped| stopped.error)
+            .map_err(|stopped| match stopped.error {
+                Error::Limit { time, what, limit } => format!(
+                    "t = {}: more than {limit} {what}; end earlier, with --until",
+                    Shortest(time)
+                ),
+                error => error.to_string(),
+            })
     }
 
     /// A clock for a setting: from a number of runs in a row to the seconds that one of them takes. Nothing is recorded

@@ -12,36 +12,43 @@ use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
 use lagrange_core::trajectory::{Difference, Summary};
 
-/// The tightest run: Taylor series, at the first of these tolerances that gets to the end.
-const TIGHTEST: [Setting; 4] = [taylor(1e-16), taylor(1e-15), taylor(1e-14), taylor(1e-13)];
+/// The tightest run, the first of these that gets to the end: Taylor series; where they would need too many steps because the motion is
+/// stiff, with Radau's method in their place there.
+const TIGHTEST: [Setting; 4] = [taylor(1e-16), auto(1e-15), auto(1e-14), auto(1e-13)];
 
 /// Groups of runs that check it; of the first group with one that gets to the end, the one that agrees best. Other
-/// methods, as tight as they can be; where none gets there, the same one with series of another order, and it is said.
-const CHECKS: [&[Setting]; 5] = [
+/// methods, as tight as they can be, Radau's where the motion is stiff; where none gets there, the same one with series of another
+/// order, and it is said.
+const CHECKS: [&[Setting]; 7] = [
     &explicit(1e-15),
+    &[radau5(1e-13)],
+    &[radau5(1e-11)],
     &explicit(1e-13),
     &explicit(1e-11),
     &explicit(1e-9),
     &[taylor(1e-12)],
 ];
 
+const fn setting(method: Method, tolerance: f64) -> Setting {
+    Setting { method, tolerance }
+}
+
 const fn taylor(tolerance: f64) -> Setting {
-    Setting {
-        method: Method::Taylor,
-        tolerance,
-    }
+    setting(Method::Taylor, tolerance)
+}
+
+const fn auto(tolerance: f64) -> Setting {
+    setting(Method::Auto, tolerance)
+}
+
+const fn radau5(tolerance: f64) -> Setting {
+    setting(Method::Radau5, tolerance)
 }
 
 const fn explicit(tolerance: f64) -> [Setting; 2] {
     [
-        Setting {
-            method: Method::Verner98,
-            tolerance,
-        },
-        Setting {
-            method: Method::DormandPrince853,
-            tolerance,
-        },
+        setting(Method::Verner98, tolerance),
+        setting(Method::DormandPrince853, tolerance),
     ]
 }
 
@@ -108,14 +115,18 @@ pub(super) fn reference(
     let reference = match closed_form {
         Some(known) => from_closed_form(known, setting, &summary),
         None => {
-            // A check that gets stuck in ever smaller steps is of no use, and takes long.
+            let stiff = !tightest.stiff().is_empty();
+            // A check that gets stuck in ever smaller steps is of no use, and takes long; what is stiff takes them.
             let patient = Motion {
                 start: motion.start.clone(),
                 simulation: motion.simulation.clone(),
-                max_steps: (10_000 + 100 * steps).min(motion.max_steps),
+                max_steps: match stiff {
+                    true => motion.max_steps,
+                    false => (10_000 + 100 * steps).min(motion.max_steps),
+                },
                 ..*motion
             };
-            from_runs(&patient, setting, summary)
+            from_runs(&patient, setting, summary, stiff)
         }
     };
     Ok((reference?, scale))
@@ -126,7 +137,7 @@ fn tightest(motion: &Motion<'_>) -> Result<(Setting, Trajectory), Refusal> {
     for setting in TIGHTEST {
         match motion.run(setting) {
             Ok(run) => return Ok((setting, run)),
-            Err(error) => refused = refused.or(Some(refusal(setting, error.to_string()))),
+            Err(reason) => refused = refused.or(Some(refusal(setting, reason))),
         }
     }
     Err(refused.unwrap_or_else(|| refusal(TIGHTEST[0], "nothing was run".to_owned())))
@@ -173,7 +184,12 @@ fn summary(known: ClosedForm, description: &'static Description) -> Result<Summa
 }
 
 /// The tightest run, with the check that agrees best.
-fn from_runs(motion: &Motion<'_>, by: Setting, tightest: Summary) -> Result<Reference, Refusal> {
+fn from_runs(
+    motion: &Motion<'_>,
+    by: Setting,
+    tightest: Summary,
+    stiff: bool,
+) -> Result<Reference, Refusal> {
     let reference = Reference {
         by: by.to_string(),
         checked_by: String::new(),
@@ -182,11 +198,17 @@ fn from_runs(motion: &Motion<'_>, by: Setting, tightest: Summary) -> Result<Refe
         truth: tightest,
     };
     let mut refused = None;
-    for group in CHECKS {
+    let suits = |group: &&[Setting]| stiff || group[0].method != Method::Radau5;
+    for group in CHECKS.into_iter().filter(suits) {
         let mut best: Option<(Setting, f64)> = None;
         for &setting in group {
-            let run = motion.run(setting).map_err(|error| error.to_string());
-            match run.and_then(|run| reference.agreement(&Summary::of(&run))) {
+            let agreement = |run: Trajectory| {
+                let found = reference.agreement(&Summary::of(&run));
+                found.map_err(|reason| {
+                    format!("{reason}; end earlier, with --until, where runs still agree")
+                })
+            };
+            match motion.run(setting).and_then(agreement) {
                 Ok(difference) if best.is_none_or(|(_, least)| difference < least) => {
                     best = Some((setting, difference));
                 }
@@ -196,9 +218,14 @@ fn from_runs(motion: &Motion<'_>, by: Setting, tightest: Summary) -> Result<Refe
         }
         if let Some((setting, difference)) = best {
             return Ok(Reference {
-                checked_by: match setting.method == by.method {
-                    true => format!("{setting} (the same method)"),
-                    false => setting.to_string(),
+                checked_by: match (by.method, setting.method) {
+                    (Method::Auto, Method::Radau5) => {
+                        format!("{setting} (the same method where it is stiff)")
+                    }
+                    (Method::Auto | Method::Taylor, Method::Taylor) => {
+                        format!("{setting} (the same method)")
+                    }
+                    _ => setting.to_string(),
                 },
                 difference,
                 floor: difference.max(f64::EPSILON),
@@ -213,6 +240,45 @@ fn from_runs(motion: &Motion<'_>, by: Setting, tightest: Summary) -> Result<Refe
 mod tests {
     use super::*;
     use crate::request::Request;
+
+    /// A body creeps in oil, x = e^(-rate t): every explicit step is as short as 1/c, and too many would be needed.
+    #[test]
+    fn what_is_stiff_has_a_reference() {
+        let declared = "parameters(c = 1e5, k = 3e4, rate = 0.30000090000540004), coordinates(x), kinetic = der(x)^2/2,
+            potential = k/2*x^2, dissipation(oil: c/2*der(x)^2), start(creeping: x = 1, der(x) = -rate), until = 10,";
+        let scene = crate::file::scene("oil.lagrange", declared).expect("a declaration");
+        let begun = scene.beginning(&Request::default()).expect("a beginning");
+        let simulation = Request::default()
+            .simulation(&begun.system)
+            .expect("a simulation");
+        let motion = |max_steps| Motion {
+            system: &begun.system,
+            start: begun.start.clone(),
+            simulation: simulation.clone(),
+            until: begun.until,
+            max_steps,
+        };
+        let (found, _) = reference(&motion(50_000), None).expect("a reference");
+        assert_eq!(found.by, "auto at 1e-15");
+        let checked_by = "radau5 at 1e-13 (the same method where it is stiff)";
+        assert_eq!(found.checked_by, checked_by);
+        let exact = (-0.300_000_900_005_400_04_f64 * 10.0).exp();
+        let error = (found.truth.state.q[0] - exact).abs();
+        assert!(
+            error <= 1e-14 && found.floor <= 1e-13,
+            "{error:e} {:e}",
+            found.floor
+        );
+        // The limit is none that a user of the program could raise.
+        let refused = reference(&motion(1000), None)
+            .map(|_| ())
+            .expect_err("a limit");
+        let told = refused.to_string();
+        assert!(
+            told.contains("more than 1000 steps; end earlier, with --until"),
+            "{told}"
+        );
+    }
 
     /// Fewer steps are allowed than tight runs of other methods need: a looser one of them checks, before the same method does.
     #[test]
@@ -245,7 +311,7 @@ mod tests {
         let mut checked = |max_steps| {
             motion.max_steps = max_steps;
             let (setting, run) = tightest(&motion).expect("a run");
-            let reference = from_runs(&motion, setting, Summary::of(&run));
+            let reference = from_runs(&motion, setting, Summary::of(&run), false);
             reference.expect("a reference").checked_by
         };
         let by = checked((loose + tight) / 2);
