@@ -6,10 +6,12 @@ mod rounding;
 mod sampling;
 
 use crate::request::Request;
+use crate::request::event::event;
 use core::ops::Range;
 use lagrange_core::certificate::Certificate;
 use lagrange_core::mode::{FrictionMode, Mode};
 use lagrange_core::prelude::*;
+use lagrange_core::simulation::Awaited;
 use lagrange_core::system::Description;
 pub(crate) use sampling::{equal, within};
 
@@ -29,6 +31,8 @@ pub struct Outcome {
     pub tolerance: f64,
     /// Absolute tolerances of coordinates that have one of their own, by name.
     pub absolute: Vec<(String, f64)>,
+    /// Events that it was to end after, as they were asked for.
+    pub end_after: Vec<String>,
     /// How far off it is, if that was asked for.
     pub estimate: Option<Estimate>,
     /// Event log.
@@ -223,6 +227,7 @@ impl Outcome {
             method: trajectory.method(),
             tolerance: trajectory.tolerance(),
             absolute: own_tolerances(trajectory),
+            end_after: request.end_after.clone(),
             estimate: trajectory.estimate().cloned(),
             effects: trajectory.effects().clone(),
             events: events.to_vec(),
@@ -310,6 +315,26 @@ impl Outcome {
             Some((output.name, first.time))
         });
         found.collect()
+    }
+
+    /// What the run was to end after and what has not happened in all of its time, in words.
+    pub fn never_came(&self) -> Option<String> {
+        let is_missing = |name: &&String| {
+            let awaited = event(name, self.description).map(Awaited::from);
+            awaited.is_ok_and(|awaited| {
+                let events = self.events.iter();
+                events.filter(|event| awaited.is(event)).count() < awaited.number
+            })
+        };
+        let missing = self.end_after.iter().filter(is_missing);
+        let missing: Vec<String> = missing.map(|name| format!("`{name}`")).collect();
+        let told = || {
+            format!(
+                "What the run was to end after has not happened: {}.",
+                missing.join(", ")
+            )
+        };
+        (self.failure.is_none() && !missing.is_empty()).then(told)
     }
 
     /// When steps were bounded by stability, and what that means, if they were.

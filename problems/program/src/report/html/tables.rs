@@ -227,6 +227,9 @@ fn accuracy(run: &Shown) -> String {
         "projections onto constraints",
         work.projections.to_string(),
     ));
+    if let Some(missing) = outcome.never_came() {
+        rows.push(line("end", escaped(&missing)));
+    }
     if let Some(stiffness) = outcome.stiffness() {
         rows.push(line("stiffness", stiffness));
     }

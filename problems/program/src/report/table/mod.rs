@@ -72,6 +72,9 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
     {
         writeln!(out, "\n{told}")?;
     }
+    if let Some(missing) = outcome.never_came() {
+        writeln!(out, "\n{missing}")?;
+    }
     if let Some(stiffness) = outcome.stiffness() {
         writeln!(out, "\n{stiffness}")?;
     }
