@@ -100,6 +100,14 @@ fn requests_without_sense_are_refused_in_one_line() {
         2,
         "`body` is an attitude, which cannot be left out",
     );
+    run(
+        &["--without", "grip", "--with", "grip"],
+        "`grip` is both left out and switched on",
+    );
+    run(
+        &["--output", "-", "--output", "-"],
+        "two results would go to stdout",
+    );
     run(&["--until", "0"], "must be above 0");
     run(&["--tolerance", "-1"], "must be above 0");
     run(
@@ -400,6 +408,18 @@ fn a_run_whose_certificate_falls_short_is_printed_and_said_to_be_wrong() {
 }
 
 #[test]
+fn what_a_run_was_to_end_after_and_did_not_is_told() {
+    let told = "What the run was to end after has not happened: `grip slips 2`.";
+    let story = |events: &[&str]| {
+        let asked = events.iter().flat_map(|&event| ["--end-after", event]);
+        let start = ["run", "mass-on-wheel"].into_iter();
+        says(&start.chain(asked).collect::<Vec<_>>())
+    };
+    assert!(story(&["grip slips", "grip slips 2"]).contains(told));
+    assert!(!story(&["grip slips"]).contains("has not happened"));
+}
+
+#[test]
 fn events_beyond_their_limit_end_a_run() {
     let output = lagrange(&["run", "mass-on-wheel", "--max-events", "1"]);
     assert_eq!(output.status.code(), Some(1));
@@ -559,6 +579,11 @@ fn feasible_modes_are_listed_with_their_forces() {
     assert_eq!(says(&[&asked[..], &["--at", "0"]].concat()), said);
     let soon = says(&["modes", "mass-on-wheel", "--at", "1e-300"]);
     assert!(soon.contains("At t = 1e-300 s the motion"), "{soon}");
+    refuses(
+        &["modes", "mass-on-shell", "--at", "9"],
+        1,
+        "the run is over before t = 9 s: `floor stop` ends it at t = 2.06",
+    );
     refuses(
         &["modes", "mass-on-wheel", "--at", "-1"],
         2,

@@ -311,6 +311,10 @@ fn every_command_has_stdout_for_a_dash_and_no_other_ending_than_its_own() {
     let refused = report("gif");
     assert_eq!(refused.status.code(), Some(2));
     assert!(text(&refused.stderr).contains("name a file for pixels"));
+    // In main.rs there would be nothing beside it that declares it.
+    let refused = said(&["export", file, "--output", "main.rs"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(text(&refused.stderr).contains("choose another name, as --output system.rs"));
     let there = fs::read_dir(&folder).expect("the folder").count();
     assert_eq!(there, 1, "nothing but the declaration");
 }

@@ -30,6 +30,10 @@ impl Export {
             )));
         }
         let path = file(self.output.as_deref());
+        if path.is_some_and(|path| path.ends_with("main.rs")) {
+            let reason = "what is exported is a module beside main.rs; choose another name, as --output system.rs";
+            return Err(Trouble::usage(reason));
+        }
         ready(path, std::slice::from_ref(&self.file))?;
         let exported = read(&self.file).and_then(|text| export(&self.file, &text));
         let exported = exported.map_err(Trouble::usage)?;
@@ -60,7 +64,7 @@ fn stem(path: &Path) -> String {
 fn module(path: &Path) -> (String, String) {
     let stem = stem(path);
     let is_name = |name: &String| syn::parse_str::<syn::Ident>(name).is_ok();
-    if is_name(&stem) {
+    if is_name(&stem) && path.extension().is_some_and(|ending| ending == "rs") {
         return (format!("mod {stem};"), stem);
     }
     let plain = stem.replace(|c: char| !c.is_alphanumeric(), "_");
@@ -84,6 +88,7 @@ mod tests {
             declared("src/my-arm.rs"),
             "#[path = \"my-arm.rs\"] mod my_arm;"
         );
+        assert_eq!(declared("arm.txt"), "#[path = \"arm.txt\"] mod arm;");
         assert_eq!(
             declared("2link.rs"),
             "#[path = \"2link.rs\"] mod system_2link;"

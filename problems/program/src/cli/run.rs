@@ -213,6 +213,11 @@ fn destinations(outputs: &Outputs) -> Result<Vec<(RunFormat, Option<PathBuf>)>, 
             all.map_err(Trouble::usage)?
         }
     };
+    let stdout = destinations.iter().filter(|(_, path)| path.is_none());
+    if stdout.count() > 1 {
+        let reason = "two results would go to stdout; give one of them the name of a file";
+        return Err(Trouble::usage(reason));
+    }
     let bytes = destinations.contains(&(RunFormat::Parquet, None));
     match bytes && std::io::stdout().is_terminal() {
         true => Err(Trouble::usage(

@@ -67,6 +67,7 @@ pub(super) struct Motion {
     #[arg(long, value_name = "T", value_parser = positive, allow_hyphen_values = true)]
     until: Option<f64>,
     /// End the run after an event ("rim lost", or "floor impact 5" for the fifth); if given several times, once all of them have happened.
+    /// After a mark it ends with the step that contains it.
     #[arg(long, value_name = "EVENT")]
     end_after: Vec<String>,
     /// Move a start that violates a constraint onto it instead of refusing it.
@@ -101,6 +102,11 @@ impl RunArgs {
 impl Motion {
     /// The same, as exact as the scene file has it.
     pub(super) fn of(&self, name: &str, catalogue: &Catalogue) -> Result<SceneFile, Trouble> {
+        if let Some(item) = self.with.iter().find(|item| self.without.contains(item)) {
+            return Err(Trouble::usage(format_args!(
+                "`{item}` is both left out and switched on; give --without or --with"
+            )));
+        }
         let file = scene(name, catalogue)?;
         Ok(SceneFile {
             request: self.request(file.request),

@@ -136,12 +136,17 @@ pub fn export(path: &str, text: &str) -> Result<Exported, Refused> {
 pub fn read(path: &str) -> Result<String, Refused> {
     let refused = |why: String| Refused::Unreadable(format!("{path}: {why}"));
     let bytes = fs::read(path).map_err(|error| refused(error.to_string()))?;
-    String::from_utf8(bytes).map_err(|error| {
+    let text = String::from_utf8(bytes).map_err(|error| {
         let read = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let (line, byte) = (1 + read.iter().filter(|&&c| c == b'\n').count(), read.len());
         refused(format!(
             "byte {byte}, in line {line}, is not UTF-8; save the file as UTF-8"
         ))
+    })?;
+    // Lines end in carriage returns alone where a file comes from an old Mac.
+    Ok(match text.contains('\n') {
+        true => text,
+        false => text.replace('\r', "\n"),
     })
 }
 

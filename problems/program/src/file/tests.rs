@@ -1,6 +1,6 @@
 //! Values of a file are read; its mistakes are shown where they are; hostile files end in an error.
 
-use super::{Refused, TEMPLATE, scene, type_name};
+use super::{Refused, TEMPLATE, read, scene, type_name};
 use crate::request::Request;
 use lagrange_core::prelude::Error;
 
@@ -17,6 +17,14 @@ fn names_of_files_become_names_of_types() {
     ] {
         assert_eq!(type_name(path), name);
     }
+}
+
+#[test]
+fn lines_may_end_in_carriage_returns_alone() {
+    let file = tempfile::NamedTempFile::new().expect("a file");
+    std::fs::write(file.path(), TEMPLATE.replace('\n', "\r")).expect("text");
+    let path = file.path().to_str().expect("a plain path");
+    assert_eq!(read(path).expect("text"), TEMPLATE);
 }
 
 fn mistakes(text: &str) -> String {
