@@ -3,14 +3,23 @@
 use super::Run;
 use crate::arithmetic::{Scalar, rounding};
 
-/// A gap whose rate is larger than this beside the velocities has a gradient: a share of the root of the tolerance.
-const SLOW: f64 = 4.0;
+/// A gap whose rate is larger than this beside the velocities has a gradient.
+const STEEP: f64 = 1e-2;
 
-/// So many times what errors of positions change a gradient by is none.
-const DIRECTED: f64 = 8.0;
+/// A gap that falls by no more than so many errors of positions only touches zero.
+const SHALLOW: f64 = 4.0;
 
-/// A gradient that changes by no more than this share of it where positions do stays the same.
-const UNCHANGED: f64 = 1e-14;
+/// Positions are off by so many tolerances.
+const OFF: f64 = 8.0;
+
+/// Bottoms as flat as that of x⁴ are looked for up to this root of the tolerance.
+const FLAT: f64 = 0.25;
+
+/// Where it falls to less than this share a gradient ends.
+const ENDS: f64 = 0.5;
+
+/// A gradient that is no more than this share of what constraints take of it is none.
+const NOTHING: f64 = 1e-14;
 
 /// A gradient of which constraints leave no more than this share depends on them.
 const DEPENDENT: f64 = 1e-12;
@@ -26,37 +35,40 @@ impl<T: Scalar> Run<T> {
         let fastest = self.now.state.v.iter();
         let fastest = fastest.fold(0.0_f64, |fastest, v| fastest.max(v.value().abs()));
         let (rate, _) = self.rate(row);
-        if rate.abs() > SLOW * self.settings.tolerance.sqrt() * fastest {
+        if rate.abs() > STEEP * fastest {
             return false;
         }
         let (n, positions) = (self.now.state.q.len(), &self.now.state.q);
         let allowed = |j: usize| self.settings.allowed(j, positions[j].value().abs());
-        let shallow = self.dynamics.size_of_row(row, allowed);
-        let error = self.settings.tolerance;
+        let shallow = SHALLOW * self.dynamics.size_of_row(row, allowed);
+        let tolerance = self.settings.tolerance;
         let [mut here, mut there] = core::mem::take(&mut self.switcher.gradients);
-        let whole = self.free_gradient(row, &mut here);
+        let nothing = rounding::<T>(NOTHING) * self.free_gradient(row, &mut here);
         let gradient = &here[here.len() - n..];
         let slope = norm(gradient);
-        // Where there is hardly a gradient, its direction is rounding.
-        let any = |j: usize| if j % 2 == 1 { -1.0 } else { 1.0 };
-        let along = |j: usize| gradient[j] / slope;
-        let touches = [&any as &dyn Fn(usize) -> f64, &along]
-            .iter()
-            .any(|direction| {
-                let moved = |j: usize, _| T::from_f64(error * direction(j));
-                self.beside(None, T::zero(), moved, |run| {
-                    run.free_gradient(row, &mut there)
-                });
-                let pairs = gradient.iter().zip(&there[there.len() - n..]);
-                let change = pairs.map(|(here, there)| (here - there).abs());
-                let change = change.fold(0.0, f64::max);
-                // Along a parabola of this curvature the gap falls no deeper than that.
-                let bend = change / error;
-                let depth = slope.powi(2) / (2.0 * bend);
-                // What constraints hold closed for good touches nevertheless.
-                let bends = change > rounding::<T>(UNCHANGED) * whole;
-                bends && depth <= shallow.max(0.5 * (DIRECTED * error).powi(2) * bend)
-            });
+        let ends = slope <= nothing;
+        let farthest = tolerance.powf(FLAT);
+        // Straight down the gap would fall by that on the way.
+        let far = (shallow / slope).min(farthest).max(OFF * tolerance);
+        let moved = |j: usize, _| {
+            T::from_f64(match ends {
+                false => -far * gradient[j] / slope,
+                true if j % 2 == 1 => -farthest,
+                true => farthest,
+            })
+        };
+        self.beside(None, T::zero(), moved, |run| {
+            run.free_gradient(row, &mut there)
+        });
+        let below = &there[there.len() - n..];
+        let touches = match ends {
+            // What constraints hold closed for good touches nevertheless.
+            true => norm(below) > nothing,
+            false => {
+                let along = gradient.iter().zip(below);
+                along.map(|(here, below)| here * below).sum::<f64>() <= ENDS * slope * slope
+            }
+        };
         self.switcher.gradients = [here, there];
         touches
     }

@@ -86,12 +86,16 @@ impl<T: Scalar> Run<T> {
         self.dynamics.set_mode(mode);
         if !ending.is_empty() && self.stop_within_errors() {
             self.now.state.v.copy_from_slice(&self.locator.earlier);
-            for &f in &ending {
-                facts.resting[f] = true;
-                // That it begins anew is no event.
-                let along = self.dynamics.slip_direction(f).map(T::value);
-                let before = &mut self.recorder.before.mode;
-                before.turn(f, Direction::Incipient(along));
+            self.tape_of_all_rows();
+            // Others may vanish with them.
+            for f in 0..facts.resting.len() {
+                if ending.contains(&f) || self.turns(f) && self.slip_vanishes(f) {
+                    facts.resting[f] = true;
+                    // That it begins anew is no event.
+                    let along = self.dynamics.slip_direction(f).map(T::value);
+                    let before = &mut self.recorder.before.mode;
+                    before.turn(f, Direction::Incipient(along));
+                }
             }
         }
         self.dynamics.set_mode(&self.now.mode);
