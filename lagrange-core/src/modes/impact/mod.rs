@@ -40,8 +40,8 @@ const GAIN: f64 = 1e-9;
 /// Velocities are known to within so many units in the last place of 1 + |v|.
 const UNITS: f64 = 16.0;
 
-/// The rates of rows that hold on are known to so many times what the run has left of them.
-const LEFT: f64 = 2.0;
+/// A body whose points hold on to within what the run has left of their rates is off by so many times that at others.
+const LEFT: f64 = 4.0;
 
 /// An impact that satisfies the law as well as the one that was chosen.
 #[derive(Clone, Debug, PartialEq)]
@@ -219,7 +219,7 @@ impl<T: Scalar> Collider<T> {
         for touch in &c.touches {
             let row = touch.row;
             // The last corner of a plate has what the run has left of the rates of the others.
-            let off = c.strength(row) * c.drift;
+            let off = LEFT * c.strength(row) * c.drift;
             outcome.stays[touch.contact] = turns.rates[row].value().abs() <= turns.noise[row] + off;
             let effect = turns.impulses[row].value() * c.g(row, row).value();
             outcome.struck[touch.contact] = effect > turns.noise[row];
