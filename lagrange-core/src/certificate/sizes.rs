@@ -10,9 +10,11 @@ use crate::trajectory::State;
 /// Sizes that grow by less than this factor have settled.
 const GROWS: f64 = 1.1;
 
-/// Velocities that are larger by 1, all of one sign.
+/// Velocities of about 1 more, each by another factor: equal ones would cancel in the speed of a foot, ẏ − ṡ.
 fn raised(v: &[f64]) -> Vec<f64> {
-    v.iter().map(|v| 1.0 + v.abs()).collect()
+    let raised = v.iter().enumerate();
+    let raised = raised.map(|(j, v)| (1.0 + uneven(j, GOLDEN)) * (1.0 + v.abs()));
+    raised.collect()
 }
 
 /// The power of time whose coefficient is the rate of a value that accelerations make, and its factor.
@@ -142,7 +144,7 @@ impl Equations {
         }
     }
 
-    /// Momenta at velocities that are larger by 1, all of one sign, as sizes: what rounding errors of velocities that cancel are
+    /// Momenta at larger velocities, as sizes: what rounding errors of velocities that cancel are
     /// relative to.
     pub fn momentum_sizes(&mut self, time: f64, state: &State<f64>) -> Vec<f64> {
         let v = raised(&state.v);

@@ -103,7 +103,7 @@ impl<T: Scalar> Run<T> {
     }
 
     /// Whether the gap of contact `c` closes at the present state: faster than rounding does.
-    fn approaching(&self, c: usize) -> bool {
+    pub(super) fn approaching(&self, c: usize) -> bool {
         let d = self.description();
         let (rate, size) = self.rate(d.contacts[c].row);
         self.dynamics.effects().includes(d, Item::Contact(c))

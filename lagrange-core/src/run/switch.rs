@@ -164,6 +164,7 @@ impl<T: Scalar> Run<T> {
                 roots.extend(composites[k].parts.iter().map(|part| part.guard));
             }
         }
+        self.knowing(Self::strike_with_what_falls);
         self.settle()
     }
 

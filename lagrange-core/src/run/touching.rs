@@ -3,6 +3,7 @@
 use super::Run;
 use crate::arithmetic::{Scalar, epsilon, rounding};
 use crate::effects::Item;
+use crate::integrate::horner;
 use crate::modes::facts::SwitchFacts;
 use crate::modes::guard::Guard;
 
@@ -48,6 +49,35 @@ impl<T: Scalar> Run<T> {
                 }
             }
         }
+    }
+
+    /// Gaps that rounding has closed a little after something else has ended the mode close with it: of a box that falls flat into a corner, two corners
+    /// strike at the instant at which a third one has ceased to slide.
+    pub(super) fn strike_with_what_falls(&mut self, facts: &mut SwitchFacts) {
+        let contacts = 0..self.description().contacts.len();
+        if facts.arriving.contains(&true) || !contacts.clone().any(|c| self.nears(c, facts)) {
+            return;
+        }
+        self.tape_of_all_rows();
+        self.now.valued = false;
+        let closed = contacts.clone().filter(|&c| facts.touching[c]);
+        let off = closed.map(|c| self.gap(c).abs()).fold(0.0, f64::max);
+        for c in contacts {
+            if self.nears(c, facts) && self.is_within_rounding(c, off) && self.approaching(c) {
+                (facts.touching[c], facts.arriving[c]) = (true, true);
+                facts.located.push(Guard::Gap(c));
+            }
+        }
+    }
+
+    /// Whether contact `c` may touch, as far as the polynomial of its gap says.
+    fn nears(&self, c: usize, facts: &SwitchFacts) -> bool {
+        let polynomials = &self.locator.polynomials;
+        let end = (self.now.t - self.stepper.step.t).value() / self.stepper.step.h.value();
+        self.may_touch(c, facts)
+            && polynomials.of(Guard::Gap(c)).is_some_and(|curve| {
+                horner(curve, end).abs() <= self.settings.tolerance * polynomials.extents[c]
+            })
     }
 
     /// The gap of contact `c`.
