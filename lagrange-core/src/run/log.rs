@@ -2,8 +2,8 @@
 
 use super::Run;
 use crate::arithmetic::Scalar;
-use crate::dynamics;
-use crate::mode::{FrictionMode, Mode};
+use crate::dynamics::{self, dot};
+use crate::mode::{Direction, FrictionMode, Mode};
 use crate::modes::facts::SwitchFacts;
 use crate::modes::impact::Impact;
 use crate::settings::{Awaited, Settings};
@@ -121,6 +121,11 @@ impl<T: Scalar> Run<T> {
                 .undetermined_after
                 .clone_from(&self.recorder.undetermined_after);
         }
+        // What has only begun, and begins anew, turns where it goes back.
+        let turns = |before: Direction, after: Direction| match (before, after) {
+            (Direction::Incipient(a), Direction::Incipient(b)) => dot(a, b) < 0.0,
+            (before, after) => before != after,
+        };
         let contacts =
             (0..d.contacts.len()).filter_map(|c| match (before.contacts[c], after.contacts[c]) {
                 (true, false) => Some((Subject::Contact(c), EventKind::Lost)),
@@ -131,9 +136,9 @@ impl<T: Scalar> Run<T> {
             let kind = match (before.frictions[f], after.frictions[f]) {
                 (FrictionMode::Stick, FrictionMode::Slip(_)) => EventKind::Slips,
                 (FrictionMode::Slip(_), FrictionMode::Stick) => EventKind::Sticks,
-                // What has only begun, and begins anew, had no direction yet.
-                (before, after) if before.rests() && after.rests() => return None,
-                (FrictionMode::Slip(a), FrictionMode::Slip(b)) if a.direction != b.direction => {
+                (FrictionMode::Slip(a), FrictionMode::Slip(b))
+                    if turns(a.direction, b.direction) =>
+                {
                     EventKind::Reverses
                 }
                 _ => return None,

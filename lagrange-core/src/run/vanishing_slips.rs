@@ -78,28 +78,36 @@ impl<T: Scalar> Run<T> {
         let mut ending = core::mem::take(&mut self.switcher.ending);
         ending.clear();
         ending.extend((0..facts.resting.len()).filter(|&f| lost(self, f)));
+        if !ending.is_empty() {
+            self.begin_anew(&ending, facts);
+        }
+        self.switcher.ending = ending;
+    }
+
+    /// Takes away these slips, and others that vanish with them, if that is no more than what velocities may be off.
+    fn begin_anew(&mut self, lost: &[usize], facts: &mut SwitchFacts) {
+        let turning = (0..facts.resting.len()).filter(|&f| self.turns(f));
+        let along = |f: usize| self.dynamics.slip_direction(f).map(T::value);
+        let turning: Vec<(usize, [f64; 2])> = turning.map(|f| (f, along(f))).collect();
         let mode = &mut self.switcher.scratch_mode;
         mode.clone_from(&self.now.mode);
-        for &f in &ending {
+        for &f in lost {
             mode.frictions[f] = FrictionMode::Stick;
         }
         self.dynamics.set_mode(mode);
-        if !ending.is_empty() && self.stop_within_errors() {
+        if self.stop_within_errors() {
             self.now.state.v.copy_from_slice(&self.locator.earlier);
             self.tape_of_all_rows();
-            // Others may vanish with them.
-            for f in 0..facts.resting.len() {
-                if ending.contains(&f) || self.turns(f) && self.slip_vanishes(f) {
+            for (f, along) in turning {
+                if lost.contains(&f) || self.slip_vanishes(f) {
                     facts.resting[f] = true;
-                    // That it begins anew is no event.
-                    let along = self.dynamics.slip_direction(f).map(T::value);
+                    // That it goes on along itself is no event.
                     let before = &mut self.recorder.before.mode;
                     before.turn(f, Direction::Incipient(along));
                 }
             }
         }
         self.dynamics.set_mode(&self.now.mode);
-        self.switcher.ending = ending;
     }
 
     /// A slip after an impact may be the error of rows that hold on: of a box that lands in the corner of a floor and a wall that move together, or on both
