@@ -341,7 +341,13 @@ impl Watches {
             // What is as it should be is not measured, and forces do not follow from the state alone.
             let (mut reach, mut rounding) = (0.0, 0.0);
             if error > 0.0 {
-                rounding = ROUNDING * self.values.gradient_size(term, 0, &mut self.changes);
+                let terms = self.values.gradient_size(term, 0, &mut self.changes);
+                // At the root of 0 its slope is infinite, and says nothing of rounding.
+                rounding = if terms.is_finite() {
+                    ROUNDING * terms
+                } else {
+                    0.0
+                };
                 reach = change(&self.changes, &self.sizes, [at.q, at.v]);
             }
             let reach = if reach > 0.0 { reach } else { 1.0 };

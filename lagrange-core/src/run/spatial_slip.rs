@@ -8,7 +8,7 @@
 use super::Run;
 use super::fall::Fall;
 use super::stepping::{JUST_BEFORE, Stepper};
-use crate::arithmetic::{Scalar, derivatives};
+use crate::arithmetic::{GOLDEN, Scalar, derivatives, uneven};
 use crate::dynamics::{approach, dot, rounding_of_residuals};
 use crate::error::Error;
 use crate::mode::{Direction, FrictionMode, Sliding};
@@ -183,18 +183,22 @@ impl<T: Scalar> Run<T> {
         }
         let mut blur = 0.0_f64;
         for k in 0..self.locator.at_limit.len() {
-            let (guard, _) = self.locator.at_limit[k];
+            let (guard, largest) = self.locator.at_limit[k];
             let (value, size) = self.force_beside(guard, |_| 0.0);
+            // There may be nothing at an instant.
+            let size = size.max(largest).max(f64::MIN_POSITIVE);
             for sign in [ERRORS, -ERRORS] {
                 for other in [sign, -sign] {
-                    let errors = |j: usize| if j.is_multiple_of(2) { sign } else { other };
+                    let side = |j: usize| if j.is_multiple_of(2) { sign } else { other };
+                    // Equal errors would cancel in the slip of one body on another.
+                    let errors = |j: usize| side(j) * uneven(j, GOLDEN);
                     let (off, _) = self.force_beside(guard, errors);
                     blur = blur.max((off - value).abs() / size);
                 }
             }
             self.force_beside(guard, |_| 0.0);
         }
-        blur
+        blur.min(1.0)
     }
 
     /// A guard of a force, and the size of what makes it, with velocities so many errors beside those of the state.
@@ -209,18 +213,6 @@ impl<T: Scalar> Run<T> {
         _ = self.dynamics.value(self.now.t, q, beside);
         let decider = &mut self.switcher.decider;
         decider.force(&mut self.dynamics, &self.now.mode, guard)
-    }
-
-    /// The largest share, up to 1, by which a slip of two components along itself is off.
-    fn largest_of_slips(&mut self, share: impl Fn(&Self, usize) -> f64) -> f64 {
-        let frictions = 0..self.description().frictions.len();
-        if !frictions.clone().any(|f| self.turns(f)) {
-            return 0.0;
-        }
-        self.dynamics.complete_outputs();
-        let turning = frictions.filter(|&f| self.turns(f));
-        let shares = turning.map(|f| share(self, f));
-        shares.fold(0.0, f64::max).min(1.0)
     }
 
     /// The error of a slip of two components, at the state of the last tape, from those of the velocities, beside the slip.
@@ -262,7 +254,8 @@ impl<T: Scalar> Run<T> {
         })
     }
 
-    /// Whether rest changes velocities by no more than their errors, to those in `earlier`: a slip that is small beside what moves in it may be all that turns a small body.
+    /// Whether rest changes velocities by no more than their errors: a slip that is small beside what moves in it may be all that turns a small body. Those at
+    /// rest are left in `earlier`.
     /// `dynamics` is in the mode at rest.
     pub(super) fn stop_within_errors(&mut self) -> bool {
         let State { q, v, .. } = &self.now.state;
@@ -412,11 +405,18 @@ impl<T: Scalar> Run<T> {
     /// How far forces are off, relative, because the directions of slips are: what rounding leaves of one that has nearly vanished. The
     /// values are those of the state in `scratch`.
     pub(super) fn blur_of_directions(&mut self) -> f64 {
-        self.largest_of_slips(|run, f| {
-            let slip = run.dynamics.slip(f).map(|s| s.value());
-            let size = run.dynamics.slip_size(f, &run.stepper.scratch.v);
+        let frictions = 0..self.description().frictions.len();
+        if !frictions.clone().any(|f| self.turns(f)) {
+            return 0.0;
+        }
+        self.dynamics.complete_outputs();
+        let turning = frictions.filter(|&f| self.turns(f));
+        let shares = turning.map(|f| {
+            let slip = self.slip(f);
+            let size = self.dynamics.slip_size(f, &self.stepper.scratch.v);
             BLUR * ROUNDING * size / slip[0].hypot(slip[1])
-        })
+        });
+        shares.fold(0.0, f64::max).min(1.0)
     }
 
     /// The state at rest exactly, and the forces just before, in the directions that the slips had.

@@ -8,7 +8,7 @@ use crate::dynamics::AT_REST;
 use crate::error::Error;
 use crate::mode::{Direction, FrictionMode};
 use crate::modes::facts::SwitchFacts;
-use crate::modes::guard::Guard;
+use crate::modes::guard::{self, Guard};
 use crate::trajectory::State;
 
 impl<T: Scalar> Run<T> {
@@ -65,29 +65,38 @@ impl<T: Scalar> Run<T> {
             _ => false,
         };
         let rests = |guard: &Guard| matches!(*guard, Guard::Slip(f) if self.turns(f));
-        facts.lost = was_lost && facts.located.iter().any(rests);
-        if !facts.lost && !facts.located.iter().any(lets_go) {
+        let come_to_rest = was_lost && facts.located.iter().any(rests);
+        if !come_to_rest && !facts.located.iter().any(lets_go) {
             return;
         }
         self.tape_of_all_rows();
         self.now.valued = false;
         let lost = |run: &Self, f: usize| {
-            let rests = facts.resting[f] && facts.lost;
-            run.turns(f) && (rests || run.error_of_direction(f) * ERRORS >= 1.0)
+            let rests = facts.resting[f] && come_to_rest;
+            let is_error = run.error_of_direction(f) * ERRORS >= 1.0;
+            run.turns(f) && (rests || is_error) && !guard::fades(f, &run.dynamics)
         };
         let mut ending = core::mem::take(&mut self.switcher.ending);
         ending.clear();
         ending.extend((0..facts.resting.len()).filter(|&f| lost(self, f)));
-        if !ending.is_empty() {
-            self.begin_anew(&ending, facts);
+        if !ending.is_empty() && self.begin_anew(&ending, facts) {
+            facts.lost = come_to_rest;
         }
         self.switcher.ending = ending;
     }
 
-    /// Takes away these slips, and others that vanish with them, if that is no more than what velocities may be off.
-    fn begin_anew(&mut self, lost: &[usize], facts: &mut SwitchFacts) {
+    /// Takes away these slips, and others that vanish with them, if that is no more than what velocities may be off; whether it is.
+    fn begin_anew(&mut self, lost: &[usize], facts: &mut SwitchFacts) -> bool {
         let turning = (0..facts.resting.len()).filter(|&f| self.turns(f));
-        let along = |f: usize| self.dynamics.slip_direction(f).map(T::value);
+        let along = |f: usize| {
+            let slip = self.dynamics.slip(f).map(|s| s.value());
+            let length = slip[0].hypot(slip[1]);
+            // What has come to rest has its last direction.
+            match !facts.resting[f] && length > 0.0 {
+                true => slip.map(|s| s / length),
+                false => self.dynamics.slip_direction(f).map(T::value),
+            }
+        };
         let turning: Vec<(usize, [f64; 2])> = turning.map(|f| (f, along(f))).collect();
         let mode = &mut self.switcher.scratch_mode;
         mode.clone_from(&self.now.mode);
@@ -95,7 +104,8 @@ impl<T: Scalar> Run<T> {
             mode.frictions[f] = FrictionMode::Stick;
         }
         self.dynamics.set_mode(mode);
-        if self.stop_within_errors() {
+        let stops = self.stop_within_errors();
+        if stops {
             self.now.state.v.copy_from_slice(&self.locator.earlier);
             self.tape_of_all_rows();
             for (f, along) in turning {
@@ -108,6 +118,7 @@ impl<T: Scalar> Run<T> {
             }
         }
         self.dynamics.set_mode(&self.now.mode);
+        stops
     }
 
     /// A slip after an impact may be the error of rows that hold on: of a box that lands in the corner of a floor and a wall that move together, or on both

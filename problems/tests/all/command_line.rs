@@ -582,7 +582,7 @@ fn feasible_modes_are_listed_with_their_forces() {
     refuses(
         &["modes", "mass-on-shell", "--at", "9"],
         1,
-        "the run is over before t = 9 s: `floor stop` ends it at t = 2.06",
+        "the run ends at t = 2.06",
     );
     refuses(
         &["modes", "mass-on-wheel", "--at", "-1"],

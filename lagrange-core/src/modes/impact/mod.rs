@@ -218,7 +218,7 @@ impl<T: Scalar> Collider<T> {
         }
         for touch in &c.touches {
             let row = touch.row;
-            // The last corner of a plate has what the run has left of the rates of the others.
+            // The rate of the last corner of a plate follows from those of the others, and with it what the run has left of them.
             let off = LEFT * c.strength(row) * c.drift;
             outcome.stays[touch.contact] = turns.rates[row].value().abs() <= turns.noise[row] + off;
             let effect = turns.impulses[row].value() * c.g(row, row).value();

@@ -47,7 +47,8 @@ impl GuardPolynomials {
         self.compared(dynamics, mode, s)
             .all(|(guard, c, [found, value])| {
                 let allowed = allowance::<T>(guard, tolerance, located) * size(value, c);
-                (found - value).abs() <= allowed && (found < 0.0) == (value < 0.0)
+                let off = (found - value).abs();
+                off <= allowed && allowed.is_finite() && (found < 0.0) == (value < 0.0)
             })
     }
 
