@@ -56,6 +56,7 @@ mod in_a_row;
 mod in_turn;
 mod incline;
 mod instants;
+mod into_corner;
 mod joint_rests;
 mod joint_stops;
 mod just_true;
