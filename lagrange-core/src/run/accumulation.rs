@@ -316,6 +316,12 @@ impl<T: Scalar> Run<T> {
                 self.end(c, facts);
             }
         }
+        // What only the gaps stay for is over already: nothing else moves meanwhile.
+        let remaining = if self.is_over(remaining) {
+            remaining
+        } else {
+            0.0
+        };
         let count = self.switcher.train.count;
         self.switcher.train.restart();
         Some((count, T::from_f64(remaining)))
