@@ -363,20 +363,19 @@ impl Beginning {
             }
         }
         let mut open = VanishingCombinations::default();
-        let mut before = f64::INFINITY;
+        let (mut before, mut unclear) = (f64::INFINITY, UNCLEAR);
         for _ in 0..MOST_ITERATIONS {
             let (mut right, mut matrix) = self.with_changes(|beginning| {
                 let slips = begin(dynamics, moment, &beginning.frictions, &beginning.along())?;
                 let pairs = slips.into_iter().zip(beginning.along());
                 Ok(pairs.map(|([a, b], [x, y])| a * y - b * x).collect())
             })?;
-            // As long as angles are off, so is what would vanish.
-            let off = if before.is_finite() {
-                OFF * before
-            } else {
-                SMALL
-            };
-            open.find(&matrix, &strengths, off.clamp(SMALL, UNCLEAR));
+            // As long as angles are off, so is what would vanish; what does not once they are known never does, or both answers would take turns.
+            if before.is_finite() {
+                unclear = unclear.min(OFF * before).max(SMALL);
+            }
+            let off = if before.is_finite() { unclear } else { SMALL };
+            open.find(&matrix, &strengths, off);
             // Right at once, as by symmetry: forces that the motion leaves open may make what follows singular.
             let mut across = right.iter().zip(strengths.iter().zip(&sizes));
             let vanish = across
