@@ -10,7 +10,7 @@ const STEEP: f64 = 1e-2;
 const SHALLOW: f64 = 4.0;
 
 /// Positions are off by so many tolerances.
-const OFF: f64 = 8.0;
+const OFF: f64 = 4.0;
 
 /// Bottoms as flat as that of x⁴ are looked for up to this root of the tolerance.
 const FLAT: f64 = 0.25;

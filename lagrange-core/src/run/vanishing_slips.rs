@@ -73,8 +73,9 @@ impl<T: Scalar> Run<T> {
         self.now.valued = false;
         let lost = |run: &Self, f: usize| {
             let rests = facts.resting[f] && come_to_rest;
-            let is_error = run.error_of_direction(f) * ERRORS >= 1.0;
-            run.turns(f) && (rests || is_error) && !guard::fades(f, &run.dynamics)
+            run.turns(f)
+                && (rests || run.error_of_direction(f) * ERRORS >= 1.0)
+                && !guard::fades(f, &run.dynamics)
         };
         let mut ending = core::mem::take(&mut self.switcher.ending);
         ending.clear();
