@@ -59,9 +59,7 @@ impl<T: Scalar> Run<T> {
             return None;
         }
         let gap = self.gap_at(index, turn);
-        let d = self.description();
-        let closed = (0..d.contacts.len()).filter(|&c| self.now.mode.contacts[c]);
-        let off = closed.map(|c| self.gap(c).abs()).fold(0.0, f64::max);
+        let off = self.largest_gap(|c| self.now.mode.contacts[c]);
         (-gap <= self.rounding_of_gap(contact).max(LEVER * off)).then_some(depth)
     }
 

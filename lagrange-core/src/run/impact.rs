@@ -49,8 +49,7 @@ impl<T: Scalar> Run<T> {
         // What has just parted may be pushed back, and so may what is away by no more than rounding.
         let mut near = core::mem::take(&mut self.switcher.near);
         near.clear();
-        let vanish = (0..d.contacts.len()).filter(|&c| facts.touching[c]);
-        let off = vanish.map(|c| self.gap(c).abs()).fold(0.0, f64::max);
+        let off = self.largest_gap(|c| facts.touching[c]);
         for c in 0..d.contacts.len() {
             if facts.touching[c] || facts.parting[c] {
                 near.push(c);

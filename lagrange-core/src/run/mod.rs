@@ -142,16 +142,20 @@ impl<T: Scalar> Now<T> {
         tolerance: f64,
         facts: &'a SwitchFacts,
     ) -> SwitchContext<'a, T> {
-        SwitchContext {
+        let here = SwitchContext {
             moment: EvaluationPoint {
                 t: self.t,
                 q: &self.state.q,
                 v: &self.state.v,
                 order,
-                tolerance: if facts.lost { 0.0 } else { tolerance },
+                tolerance,
             },
             present: &self.mode,
             facts,
+        };
+        match facts.lost {
+            true => here.exactly(),
+            false => here,
         }
     }
 }

@@ -219,7 +219,7 @@ impl<T: Scalar> Run<T> {
     pub(super) fn error_of_direction(&self, f: usize) -> f64 {
         let row = self.description().frictions[f].row;
         let error = |row: usize| self.error_of_rate(row, &self.now.state.v);
-        let slip = self.dynamics.slip(f).map(|s| s.value());
+        let slip = self.slip(f);
         error(row).hypot(error(row + 1)) / slip[0].hypot(slip[1])
     }
 
@@ -254,9 +254,8 @@ impl<T: Scalar> Run<T> {
         })
     }
 
-    /// Whether rest changes velocities by no more than their errors: a slip that is small beside what moves in it may be all that turns a small body. Those at
-    /// rest are left in `earlier`.
-    /// `dynamics` is in the mode at rest.
+    /// Whether rest changes velocities by no more than their errors: a slip that is small beside what moves in it may be all that turns a small body.
+    /// `dynamics` is in the mode at rest; the velocities at rest are left in `earlier`.
     pub(super) fn stop_within_errors(&mut self) -> bool {
         let State { q, v, .. } = &self.now.state;
         let stopped = &mut self.locator.earlier;
@@ -378,7 +377,7 @@ impl<T: Scalar> Run<T> {
             let State { q, v, .. } = &self.stepper.scratch;
             let time = self.stepper.step.time(T::from_f64(s));
             self.dynamics.tape(time, q, v);
-            *slip = self.dynamics.slip(f).map(|s| s.value());
+            *slip = self.slip(f);
         }
         let [before, now] = slips;
         Fall { before, now }
@@ -405,12 +404,11 @@ impl<T: Scalar> Run<T> {
     /// How far forces are off, relative, because the directions of slips are: what rounding leaves of one that has nearly vanished. The
     /// values are those of the state in `scratch`.
     pub(super) fn blur_of_directions(&mut self) -> f64 {
-        let frictions = 0..self.description().frictions.len();
-        if !frictions.clone().any(|f| self.turns(f)) {
+        if !self.now.mode.has_turning_slip() {
             return 0.0;
         }
         self.dynamics.complete_outputs();
-        let turning = frictions.filter(|&f| self.turns(f));
+        let turning = (0..self.now.mode.frictions.len()).filter(|&f| self.turns(f));
         let shares = turning.map(|f| {
             let slip = self.slip(f);
             let size = self.dynamics.slip_size(f, &self.stepper.scratch.v);
@@ -471,7 +469,7 @@ impl<T: Scalar> Run<T> {
             {
                 continue;
             }
-            let slip = self.dynamics.slip(f).map(|s| s.value());
+            let slip = self.slip(f);
             if slip[0].hypot(slip[1]) <= NOTHING * self.dynamics.slip_size(f, &self.now.state.v) {
                 self.rest_as_it_is(f);
             }
@@ -528,7 +526,7 @@ impl<T: Scalar> Run<T> {
     }
 
     /// The slip of friction `f` at the state of the last tape.
-    fn slip(&self, f: usize) -> [f64; 2] {
+    pub(super) fn slip(&self, f: usize) -> [f64; 2] {
         self.dynamics.slip(f).map(|s| s.value())
     }
 

@@ -33,8 +33,7 @@ impl<T: Scalar> Run<T> {
         }
         self.tape_of_all_rows();
         self.now.valued = false;
-        let closed = contacts.clone().filter(|&c| facts.touching[c]);
-        let off = closed.map(|c| self.gap(c).abs()).fold(0.0, f64::max);
+        let off = self.largest_gap(|c| facts.touching[c]);
         let lies = facts.touching.contains(&true);
         for c in contacts {
             // The last flights of a body that bounces are lower than what a body lies with may be off.
@@ -60,8 +59,7 @@ impl<T: Scalar> Run<T> {
         }
         self.tape_of_all_rows();
         self.now.valued = false;
-        let closed = contacts.clone().filter(|&c| facts.touching[c]);
-        let off = closed.map(|c| self.gap(c).abs()).fold(0.0, f64::max);
+        let off = self.largest_gap(|c| facts.touching[c]);
         for c in contacts {
             if self.nears(c, facts) && self.is_within_rounding(c, off) && self.approaching(c) {
                 (facts.touching[c], facts.arriving[c]) = (true, true);
@@ -73,11 +71,23 @@ impl<T: Scalar> Run<T> {
     /// Whether contact `c` may touch, as far as the polynomial of its gap says.
     fn nears(&self, c: usize, facts: &SwitchFacts) -> bool {
         let polynomials = &self.locator.polynomials;
-        let end = (self.now.t - self.stepper.step.t).value() / self.stepper.step.h.value();
         self.may_touch(c, facts)
             && polynomials.of(Guard::Gap(c)).is_some_and(|curve| {
-                horner(curve, end).abs() <= self.settings.tolerance * polynomials.extents[c]
+                horner(curve, self.part_of_step()).abs()
+                    <= self.settings.tolerance * polynomials.extents[c]
             })
+    }
+
+    /// The part of the last step at which the motion is now.
+    fn part_of_step(&self) -> f64 {
+        let step = &self.stepper.step;
+        (self.now.t.value() - step.t.value()) / step.h.value()
+    }
+
+    /// How far the gaps of these contacts are off zero, at which they are known to be.
+    pub(super) fn largest_gap(&self, closed: impl Fn(usize) -> bool) -> f64 {
+        let closed = (0..self.description().contacts.len()).filter(|&c| closed(c));
+        closed.map(|c| self.gap(c).abs()).fold(0.0, f64::max)
     }
 
     /// The gap of contact `c`.
@@ -122,7 +132,7 @@ impl<T: Scalar> Run<T> {
         let curve = self.locator.polynomials.of(Guard::Gap(c));
         let terms = curve.unwrap_or_default().iter().enumerate().skip(2);
         let (now, h) = (self.now.t.value(), self.stepper.step.h.value());
-        let end = (now - self.stepper.step.t.value()) / h;
+        let end = self.part_of_step();
         let bends = terms.map(|(k, c)| (k * (k - 1)) as f64 * c * end.powi(k as i32 - 2));
         UNITS_OF_TIME * epsilon::<T>() * now.abs() * bends.sum::<f64>().abs() / (h * h)
     }

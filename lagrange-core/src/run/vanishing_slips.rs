@@ -58,12 +58,8 @@ impl<T: Scalar> Run<T> {
             return;
         }
         let was_lost = self.stepper.astray * ERRORS >= 1.0;
-        let lets_go = |guard: &Guard| match *guard {
-            Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) => {
-                self.now.mode.frictions[f] == FrictionMode::Stick
-            }
-            _ => false,
-        };
+        let sticks = |f: usize| self.now.mode.frictions[f] == FrictionMode::Stick;
+        let lets_go = |guard: &Guard| guard.holding().is_some_and(sticks);
         let rests = |guard: &Guard| matches!(*guard, Guard::Slip(f) if self.turns(f));
         let come_to_rest = was_lost && facts.located.iter().any(rests);
         if !come_to_rest && !facts.located.iter().any(lets_go) {
@@ -90,7 +86,7 @@ impl<T: Scalar> Run<T> {
     fn begin_anew(&mut self, lost: &[usize], facts: &mut SwitchFacts) -> bool {
         let turning = (0..facts.resting.len()).filter(|&f| self.turns(f));
         let along = |f: usize| {
-            let slip = self.dynamics.slip(f).map(|s| s.value());
+            let slip = self.slip(f);
             let length = slip[0].hypot(slip[1]);
             // What has come to rest has its last direction.
             match !facts.resting[f] && length > 0.0 {

@@ -371,10 +371,12 @@ impl Beginning {
                 Ok(pairs.map(|([a, b], [x, y])| a * y - b * x).collect())
             })?;
             // As long as angles are off, so is what would vanish; what does not once they are known never does, or both answers would take turns.
-            if before.is_finite() {
+            let off = if before.is_finite() {
                 unclear = unclear.min(OFF * before).max(SMALL);
-            }
-            let off = if before.is_finite() { unclear } else { SMALL };
+                unclear
+            } else {
+                SMALL
+            };
             open.find(&matrix, &strengths, off);
             // Right at once, as by symmetry: forces that the motion leaves open may make what follows singular.
             let mut across = right.iter().zip(strengths.iter().zip(&sizes));
