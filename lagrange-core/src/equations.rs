@@ -17,10 +17,10 @@ use crate::program::{Selection, ValueRef};
 use core::marker::PhantomData;
 
 /// 1/k; of 0, 0.
-pub const INVERSES: [f64; STRIDE] = {
-    let mut table = [0.0; STRIDE];
+pub const INVERSES: [f64; ROW] = {
+    let mut table = [0.0; ROW];
     let mut k = 1;
-    while k < STRIDE {
+    while k < ROW {
         table[k] = 1.0 / k as f64;
         k += 1;
     }

@@ -65,7 +65,7 @@ pub fn implementation(
     let looped = expansion.orders_from(1 + unrolled, &elimination);
     let (c, held, order, rows) = (local("c"), local("held"), local("order"), local("rows"));
     let (t, q, v, registers) = (local("t"), local("q"), local("v"), local("registers"));
-    let (products, newest) = (local("products"), local("newest"));
+    let (products, newest, weight) = (local("products"), local("newest"), local("weight"));
     let groups = index(plan.groups);
     let memory = (plan.groups > 0).then(
         || quote!(let #products = first_mut::<STRIDE, _>(#products.as_chunks_mut::<#groups>().0);),
@@ -95,6 +95,7 @@ pub fn implementation(
                 #needs
                 #first
                 let mut #newest = [Factors::<#number>::none(); #groups];
+                let mut #weight = #number::of(0.0);
                 #(#single)*
                 #looped
                 ::core::result::Result::Ok(())

@@ -20,7 +20,7 @@ impl Expansion<'_> {
         let (k, order, first) = (local("k"), local("order"), index(first));
         let body = self.next(elimination);
         quote! {
-            for #k in #first..=#order {
+            for #k in #first..#order + 1 {
                 #body
             }
         }
@@ -63,7 +63,7 @@ impl Expansion<'_> {
         let optional_factors = self.keep_optional_factors();
         quote! {
             let #p = #k & 31;
-            let #weight = #number::of(#k as f64);
+            #weight = #weight + #number::of(1.0);
             let #share = #number::of(INVERSES[#p]);
             #sums
             #optional_sums
@@ -190,14 +190,14 @@ impl Expansion<'_> {
     /// Coefficient k + 1 of the velocities, from that of the accelerations.
     fn next_of_velocities(&self) -> TokenStream {
         let number = &self.writer.number;
-        let k = local("k");
+        let p = local("p");
         let places = self.mode.results.accelerations.iter().enumerate();
         let lines = places.filter_map(|(j, place)| {
             let d = self.d_of_place(*place)?;
             let velocity = self.mode.inputs.velocity(j);
             let (before, now) = (self.before(velocity), self.now(velocity));
-            let next = quote!(#d * #number::of(INVERSES[(#k + 1) & 31]));
-            let store = self.store(Row::Value(velocity), quote!((#k + 1) & 31), quote!(#now));
+            let next = quote!(#d * #number::of(INVERSES[#p + 1]));
+            let store = self.store(Row::Value(velocity), quote!(#p + 1), quote!(#now));
             Some(quote!((#before, #now) = (#now, #next); #store))
         });
         quote!(#(#lines)*)
