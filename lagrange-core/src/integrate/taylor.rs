@@ -12,7 +12,7 @@
 
 use super::polynomial::ORDERS;
 use super::{StepPolynomial, Tolerance};
-use crate::arithmetic::products::{ROW, Row};
+use crate::arithmetic::products::Row;
 use crate::arithmetic::quad::{Quad, QuadBody, side_by_side, values};
 use crate::arithmetic::{Scalar, epsilon};
 
@@ -112,8 +112,8 @@ impl<T: Scalar> QuadBody<([&[Row<T>]; 2], usize, Tolerance<'_>)> for StepSize {
     }
 }
 
-/// Fours of coefficients that a row has room for.
-const QUADS: usize = ROW.div_ceil(4);
+/// Fours of coefficients in the upper half of those up to [`MAX_ORDER`].
+const QUADS: usize = (MAX_ORDER / 2 + 1).div_ceil(4);
 
 /// Step from the sizes of the coefficients of the orders `first`, `first` + 1, …, `count` of them, in units of the allowed error 2^−`base`.
 #[inline(always)]
