@@ -181,8 +181,12 @@ impl<T: Scalar> Trajectory<T> {
         };
         let offset = self.coefficients.len();
         for polynomials in [&step.q, &step.v] {
-            for polynomial in polynomials.chunks_exact(step.degree + 1) {
-                self.coefficients.extend_from_slice(&polynomial[..=degree]);
+            match self.recorded {
+                true => self.coefficients.extend_from_slice(polynomials),
+                false => {
+                    let starts = polynomials.iter().step_by(step.degree + 1);
+                    self.coefficients.extend(starts);
+                }
             }
         }
         self.segments.push(Segment {
