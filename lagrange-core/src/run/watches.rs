@@ -232,7 +232,9 @@ impl<T: Scalar> Run<T> {
         let curves = &self.locator.polynomials;
         for &i in &curves.stops {
             for (k, below) in self.locator.stop_below[i].iter_mut().enumerate() {
-                *below = is_below(curves.stop_term(i, k), end, resolution, *below);
+                if !curves.stop_stays(i, k, *below) {
+                    *below = is_below(curves.stop_term(i, k), end, resolution, *below);
+                }
             }
         }
         for &i in &curves.marks {

@@ -122,6 +122,12 @@ pub struct Sums {
 }
 
 impl Sums {
+    /// Of coefficients that nobody has added up: of such a guard nothing is certain.
+    pub const UNKNOWN: Self = Self {
+        end: 0.0,
+        rest: f64::INFINITY,
+    };
+
     /// Of these coefficients.
     pub fn of(c: &[f64]) -> Self {
         Self {

@@ -9,7 +9,7 @@ use crate::events::{clearance, deflate};
 use crate::integrate::taylor::worse;
 use crate::integrate::{StepPolynomial, polynomial_value as at};
 use crate::mode::Mode;
-use crate::modes::guard::Guard;
+use crate::modes::guard::{Guard, Sums};
 
 /// Samples of a guard in a step of a Runge–Kutta method, at least.
 const FEWEST_SAMPLES: usize = 8;
@@ -90,7 +90,7 @@ impl GuardPolynomials {
         self.interpolation.prepare(m);
         self.shape(m);
         for curve in &mut self.list {
-            curve.stays = false;
+            (curve.sums, curve.stays) = (Sums::UNKNOWN, false);
         }
         self.coefficients.fill(0.0);
         if self.coefficients.is_empty() {

@@ -141,10 +141,7 @@ impl GuardPolynomials {
             .map(|guard| GuardPolynomial {
                 guard,
                 linear: Linear::of(guard, mode, dynamics),
-                sums: Sums {
-                    end: 0.0,
-                    rest: f64::INFINITY,
-                },
+                sums: Sums::UNKNOWN,
                 stays: false,
                 margin: 0.0,
             });
