@@ -30,6 +30,17 @@ impl Source {
             Source::Force(row) => reading.force(row),
         }
     }
+
+    /// The number, or the first coefficient.
+    #[inline(always)]
+    fn first<T: Scalar>(self, reading: &Reading<T>) -> T {
+        match (self, reading) {
+            (Source::Motion(place), Reading::Values(dynamics)) => dynamics.motion(place),
+            (Source::Report(place), Reading::Values(dynamics)) => dynamics.report(place),
+            (Source::Force(row), Reading::Values(dynamics)) => dynamics.force(row),
+            (_, Reading::Series(_)) => self.read(reading).first(),
+        }
+    }
 }
 
 /// A guard that is one reading times a number, or the sum of two, as long as mode and parameters are what they are.
@@ -107,8 +118,12 @@ impl Linear {
     /// See [`value`].
     #[inline]
     pub fn value<T: Scalar>(&self, reading: &Reading<T>) -> f64 {
-        let number = |(a, x): (f64, Source)| a * x.read(reading).first().value();
-        number(self.first) + self.second.map_or(0.0, number)
+        let (a, x) = self.first;
+        let first = a * x.first(reading).value();
+        match self.second {
+            None => first,
+            Some((b, y)) => first + b * y.first(reading).value(),
+        }
     }
 }
 
