@@ -1,7 +1,7 @@
 //! Positions and velocities over one step, as polynomials in s = (t − t₀)/h.
 
 use crate::arithmetic::Scalar;
-use crate::arithmetic::products::{ROW, Row};
+use crate::arithmetic::products::Row;
 use crate::arithmetic::quad::{Quad, values};
 
 /// The solution over one step: q(t₀ + h s) = Σₖ qₖ sᵏ, the same for v; coefficients carry hᵏ.
@@ -150,36 +150,31 @@ pub(crate) fn onto_step<T: Scalar, Q: Quad, const SLOPE: bool>(
     c: &Row<T>,
     powers: &Row<f64>,
 ) -> (T, f64) {
-    let (fours, end) = (out.len().min(ROW) / 4, out.len().min(ROW));
+    let (fours, end) = out.as_chunks_mut::<4>();
     let (mut sums, mut slopes) = (quad.splat(T::zero()), quad.splat(0.0));
-    let mut i = fours;
-    while i > 0 {
-        i -= 1;
-        let x = quad.product(
-            quad.four(c.as_chunks().0[i]),
-            quad.four(of_type(powers.as_chunks().0[i])),
-        );
-        out.as_chunks_mut().0[i] = quad.numbers(x);
+    let mut higher = sums;
+    let terms = fours.iter_mut().zip(c.as_chunks().0);
+    let factors = powers.as_chunks().0.iter().zip(ORDERS.as_chunks().0);
+    for ((out, &c), (&powers, &orders)) in terms.zip(factors).rev() {
+        let x = quad.product(quad.four(c), quad.four(of_type(powers)));
+        *out = quad.numbers(x);
         if SLOPE {
-            let x = quad.four(values(quad.numbers(x)));
-            slopes = quad.sum(slopes, quad.product(quad.four(ORDERS.as_chunks().0[i]), x));
+            let x = quad.four(values(*out));
+            slopes = quad.sum(slopes, quad.product(quad.four(orders), x));
         }
-        if i > 0 {
-            sums = quad.sum(sums, x);
-        }
+        (higher, sums) = (sums, quad.sum(sums, x));
     }
-    let (mut sum, mut slope) = (quad.total(sums), quad.total(slopes));
-    let mut k = end;
-    while k > 4 * fours {
+    let (mut sum, mut slope) = (quad.total(higher), quad.total(slopes));
+    let mut k = 4 * fours.len() + end.len();
+    for out in end.iter_mut().rev() {
         k -= 1;
-        let x = c[k] * T::from_f64(powers[k]);
-        out[k] = x;
-        sum += x;
+        *out = c[k] * T::from_f64(powers[k]);
+        sum += *out;
         if SLOPE {
-            slope += ORDERS[k] * x.value();
+            slope += ORDERS[k] * out.value();
         }
     }
-    if let Some(&[x0, x1, x2, x3]) = out.first_chunk() {
+    if let Some(&[x0, x1, x2, x3]) = fours.first() {
         sum = sum + (x2 + x3) + x1 + x0;
     }
     (sum, slope)

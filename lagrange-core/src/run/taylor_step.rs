@@ -455,10 +455,15 @@ impl<T: Scalar> QuadBody<(&Dynamics<T>, &mut Stepper<T>)> for OntoStep {
         } = stepper;
         powers_of(quad, step.h.value(), step.degree, powers);
         let [positions, velocities] = dynamics.state_series();
-        for (i, (q, v)) in positions.iter().zip(velocities).enumerate() {
-            let (onto_q, onto_v) = step.rows_mut(i);
-            (scratch.q[i], _) = onto_step::<T, Q, false>(quad, onto_q, q, powers);
-            (scratch.v[i], slopes[i]) = onto_step::<T, Q, true>(quad, onto_v, v, powers);
+        let width = step.degree + 1;
+        let onto_q = step.q.chunks_exact_mut(width).zip(&mut scratch.q);
+        let onto_v = step.v.chunks_exact_mut(width).zip(&mut scratch.v);
+        let onto = onto_q.zip(onto_v).zip(slopes);
+        for ((q, v), (((row_q, end_q), (row_v, end_v)), slope)) in
+            positions.iter().zip(velocities).zip(onto)
+        {
+            (*end_q, _) = onto_step::<T, Q, false>(quad, row_q, q, powers);
+            (*end_v, *slope) = onto_step::<T, Q, true>(quad, row_v, v, powers);
         }
     }
 }
