@@ -109,11 +109,12 @@ impl<T: Scalar> Run<T> {
                 h = shorter;
                 continue;
             }
-            if self.passes_over_touches(&hit, moves / h) {
-                continue;
-            }
-            let turns = self.gap_that_turns(&hit, moves / h);
+            let mut turns = None;
             if !whole {
+                if self.passes_over_touches(&hit, moves / h) {
+                    continue;
+                }
+                turns = self.gap_that_turns(&hit, moves / h);
                 self.state_at_end(looked);
             }
             let (motion, guards) = match self.evaluate_scratch(looked) {
@@ -180,7 +181,10 @@ impl<T: Scalar> Run<T> {
                         self.state_at_end(end);
                         return Ok(hit);
                     }
-                    return Ok(self.sharpened_hit(hit));
+                    return Ok(match whole {
+                        true => hit,
+                        false => self.sharpened_hit(hit),
+                    });
                 }
                 Verdict::Redo { h: smaller } => {
                     self.recorder.trajectory.work.rejected += 1;
