@@ -162,38 +162,40 @@ fn combine<T: Scalar, Q: Quad, const TWO: bool>(
     powers: &[f64],
 ) -> Sums {
     let count = out.len();
-    let (fours, tail) = out.as_chunks_mut::<4>();
-    let (x, x_tail) = x[..count].as_chunks::<4>();
-    let (y, y_tail) = y[..count].as_chunks::<4>();
-    let (p, p_tail) = powers[..count].as_chunks::<4>();
-    let zero = quad.splat(0.0);
-    let (mut sums, mut sizes, mut higher) = (zero, zero, [zero; 2]);
-    for (((out, &x), &y), &p) in fours.iter_mut().zip(x).zip(y).zip(p).rev() {
-        let mut c = quad.product(quad.splat(a), quad.four(values(x)));
-        if TWO {
-            c = quad.sum(c, quad.product(quad.splat(b), quad.four(values(y))));
-        }
-        c = quad.product(c, quad.four(p));
-        *out = quad.numbers(c);
-        higher = [sums, sizes];
-        sums = quad.sum(sums, c);
-        sizes = quad.sum(sizes, quad.magnitudes(c));
-    }
-    let [mut end, mut rest] = [quad.total(higher[0]), quad.total(higher[1])];
-    let mut i = tail.len();
+    let (out, out_end) = out.as_chunks_mut::<4>();
+    let (x, x_end) = x[..count].as_chunks::<4>();
+    let (y, y_end) = y[..count].as_chunks::<4>();
+    let (p, p_end) = powers[..count].as_chunks::<4>();
+    let (mut sums, mut sizes) = (quad.splat(0.0), quad.splat(0.0));
+    let mut i = out.len();
     while i > 0 {
         i -= 1;
-        let mut c = a * x_tail[i].value();
+        let mut c = quad.product(quad.splat(a), quad.four(values(x[i])));
         if TWO {
-            c += b * y_tail[i].value();
+            c = quad.sum(c, quad.product(quad.splat(b), quad.four(values(y[i]))));
         }
-        tail[i] = c * p_tail[i];
-        end += tail[i];
-        if i > 1 || !fours.is_empty() {
-            rest += tail[i].abs();
+        c = quad.product(c, quad.four(p[i]));
+        out[i] = quad.numbers(c);
+        if i > 0 {
+            sums = quad.sum(sums, c);
+            sizes = quad.sum(sizes, quad.magnitudes(c));
         }
     }
-    if let Some(&[c0, c1, c2, c3]) = fours.first() {
+    let (mut end, mut rest) = (quad.total(sums), quad.total(sizes));
+    let mut i = out_end.len();
+    while i > 0 {
+        i -= 1;
+        let mut c = a * x_end[i].value();
+        if TWO {
+            c += b * y_end[i].value();
+        }
+        out_end[i] = c * p_end[i];
+        end += out_end[i];
+        if i > 1 || !out.is_empty() {
+            rest += out_end[i].abs();
+        }
+    }
+    if let Some(&[c0, c1, c2, c3]) = out.first() {
         end = end + (c2 + c3) + c1 + c0;
         rest += c2.abs() + c3.abs();
     }
