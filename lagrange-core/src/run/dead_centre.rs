@@ -27,7 +27,7 @@ impl<T: Scalar> Run<T> {
             }
             self.now.outdate();
             self.dynamics.set_mode(&self.now.mode);
-            self.hold_guards();
+            self.ask_for_guards();
         }
     }
 

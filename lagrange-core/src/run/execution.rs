@@ -100,7 +100,7 @@ impl<T: Scalar> Run<T> {
         self.now.outdate();
         self.now.mode.clone_from(&self.switcher.status.mode);
         self.release_contacts_without_direction();
-        self.hold_guards();
+        self.ask_for_guards();
         if self.evaluate().is_ok() {
             self.release_dead_centres();
         } else {
@@ -143,7 +143,7 @@ impl<T: Scalar> Run<T> {
         for release in [Mode::release_sticking, Mode::release_contacts] {
             if release(&mut self.now.mode) {
                 self.dynamics.set_mode(&self.now.mode);
-                self.hold_guards();
+                self.ask_for_guards();
             }
             if self.evaluate().is_ok() {
                 break;

@@ -122,8 +122,7 @@ impl<T: Scalar> Locator<T> {
             mark_times,
             marks,
         } = self;
-        polynomials.composites.clear();
-        polynomials.held.clear();
+        polynomials.restart();
         zeros.clear();
         entered.clear();
         edges_held.fill(None);

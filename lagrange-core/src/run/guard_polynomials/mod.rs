@@ -123,6 +123,13 @@ impl GuardPolynomials {
         curves
     }
 
+    /// Watches no guard until some are watched from a mode on.
+    pub(super) fn restart(&mut self) {
+        self.list.clear();
+        self.composites.clear();
+        self.held.clear();
+    }
+
     /// Watches these guards of single forces in a mode, and the composite ones, from now on.
     pub(super) fn arm<T: Scalar>(
         &mut self,
@@ -338,7 +345,8 @@ impl GuardPolynomials {
     /// The number of a guard of the mode.
     pub(super) fn index_of(&self, guard: Guard) -> Option<usize> {
         let first = self.watches.len();
-        let found = self.list[first..].iter().position(|c| c.guard == guard)?;
+        let mut of_mode = self.list.iter().skip(first);
+        let found = of_mode.position(|c| c.guard == guard)?;
         Some(first + found)
     }
 
