@@ -12,7 +12,7 @@ pub(super) struct Held {
     /// Outputs asked of the report.
     report_needs: OutputMask,
     /// Outputs that the motion program gives.
-    motion: OutputMask,
+    pub motion: OutputMask,
     /// Outputs that the functions of the mode give as a series.
     pub series: OutputMask,
     /// Outputs that the functions of the mode give as values: with what a projection takes, where they give that.

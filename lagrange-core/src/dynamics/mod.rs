@@ -109,6 +109,8 @@ pub struct Dynamics<T: Scalar> {
     guards_alone: bool,
     /// Whether the outputs at the last value are those that the functions of the mode have given.
     given: bool,
+    /// The outputs at the last value that the motion program has given; without need 0 where they are not of that state any more.
+    run: OutputMask,
     report_needs: OutputMask,
     /// Needs of the named energies.
     energies: OutputMask,
@@ -162,6 +164,7 @@ impl<T: Scalar> Dynamics<T> {
             holds: false,
             guards_alone: false,
             given: false,
+            run: OutputMask::default(),
             report_needs: OutputMask::new(d),
             energies: output_mask::of_energies(d),
             by_functions: false,
@@ -299,6 +302,9 @@ impl<T: Scalar> Dynamics<T> {
         if *self.mode() == *mode {
             return;
         }
+        if self.mode().branches != mode.branches {
+            self.run.empty();
+        }
         let known = self
             .modes
             .iter()
@@ -316,6 +322,7 @@ impl<T: Scalar> Dynamics<T> {
         self.modes.iter_mut().for_each(Compiled::outdate);
         self.renew();
         self.given = false;
+        self.run.empty();
     }
 
     /// Brings the present mode up to date with the parameters.

@@ -58,6 +58,18 @@ impl OutputMask {
         self.words[need / 64] >> (need % 64) & 1 == 1
     }
 
+    /// Whether all needs of another set of the same system are held.
+    pub(super) fn includes(&self, other: &Self) -> bool {
+        let mut words = self.words.iter().zip(&other.words);
+        !self.words.is_empty() && words.all(|(word, other)| other & !word == 0)
+    }
+
+    /// Takes out all needs, also need 0.
+    #[inline]
+    pub(super) fn empty(&mut self) {
+        self.words.clear();
+    }
+
     /// Adds all needs of another set of the same system.
     pub fn extend(&mut self, other: &[u64]) {
         for (word, other) in self.words.iter_mut().zip(other) {

@@ -79,7 +79,7 @@ impl<T: Scalar> Dynamics<T> {
         if self.acting_rows().is_empty() {
             return Default::default();
         }
-        self.run_rows(t, q, v);
+        self.see_rows(t, q, v);
         (
             self.residual(Level::Position, q),
             self.residual(Level::Velocity, v),
@@ -304,6 +304,8 @@ impl<T: Scalar> Dynamics<T> {
 
     /// The rates of the rows that act, after the velocities have changed as in `projection.change`: they are linear in these.
     fn change_rates(&mut self) {
+        self.given = false;
+        self.run.empty();
         let Self {
             modes,
             current,

@@ -18,6 +18,10 @@ impl<T: Scalar> Dynamics<T> {
     /// # Errors
     /// The system is singular there, or a number is not finite.
     pub fn value(&mut self, t: T, q: &[T], v: &[T]) -> Result<(), EvaluationError> {
+        // What the interpreter leaves beside the value is made anew.
+        if self.given && self.functions().is_some() && self.is_at(t, q, v) {
+            return Ok(());
+        }
         self.work.values += 1;
         let n = q.len();
         let mut inputs = core::mem::take(&mut self.inputs);
@@ -305,6 +309,7 @@ impl<T: Scalar> Dynamics<T> {
 
     #[inline]
     fn take_state(&mut self, t: T, q: &[T], v: &[T]) {
+        self.run.empty();
         let n = q.len();
         self.inputs[0] = t;
         self.inputs[1..1 + n].copy_from_slice(q);
@@ -320,6 +325,7 @@ impl<T: Scalar> Dynamics<T> {
         let mut nodes = core::mem::take(&mut self.nodes);
         self.in_front().take_nodes(&mut nodes);
         self.nodes = nodes;
+        self.run.clone_from(&self.modes[self.current].held.motion);
     }
 
     /// Takes the outputs that the functions of the mode have given.
@@ -332,24 +338,32 @@ impl<T: Scalar> Dynamics<T> {
         }
     }
 
-    /// Inertia, Jacobians and residuals of the rows that act, at (t, q, v): they are there if that is the last value and the functions
-    /// of the mode have given them. Whether they have.
+    /// Whether the last value is of this state. Equal numbers may have other derivatives.
     #[inline]
-    pub(super) fn see_rows(&mut self, t: T, q: &[T], v: &[T]) -> bool {
+    fn is_at(&self, t: T, q: &[T], v: &[T]) -> bool {
         let n = q.len();
         let same = |at: usize, numbers: &[T]| self.inputs[at..at + n] == *numbers;
-        // Equal numbers may have other derivatives.
-        let is_given = T::DERIVATIVES == 0 && self.given && self.gives_rows();
-        let is_seen = is_given && self.inputs[0] == t && same(1, q) && same(1 + n, v);
+        T::DERIVATIVES == 0 && self.inputs[0] == t && same(1, q) && same(1 + n, v)
+    }
+
+    /// Inertia, Jacobians and residuals of the rows that act, at (t, q, v): they are there if that is the last value and the functions
+    /// of the mode or the motion program have given them. Whether the functions have.
+    #[inline]
+    pub(super) fn see_rows(&mut self, t: T, q: &[T], v: &[T]) -> bool {
+        let given = self.given && self.gives_rows();
+        let known = given || self.run.includes(&self.compiled().row_needs);
+        let is_seen = known && self.is_at(t, q, v);
         if !is_seen {
             self.run_rows(t, q, v);
         }
-        is_seen
+        is_seen && given
     }
 
     /// Runs the motion program at (t, q, v) for inertia, Jacobians and residuals of the rows that act.
     pub(super) fn run_rows(&mut self, t: T, q: &[T], v: &[T]) {
         self.work.projections += 1;
+        self.run.empty();
+        self.given &= self.is_at(t, q, v);
         let compiled = &mut self.modes[self.current];
         let rows = compiled.rows(&*self.system, &mut self.numbers);
         rows.place(t, q, v);

@@ -95,6 +95,11 @@ impl<T: Scalar> Run<T> {
             self.now.state.clone_from(start);
         }
         outcome?;
+        // Where nothing can close or rub no question is asked of sizes.
+        let d = self.description();
+        if !(d.contacts.is_empty() && d.frictions.is_empty()) {
+            self.switcher.decider.take_sizes(&self.dynamics);
+        }
         self.measure_gaps();
         self.recorder.trajectory.start.clone_from(&self.now.state);
         self.now.outdate();

@@ -340,8 +340,7 @@ impl<T: Scalar> Decider<T> {
     fn measure(&mut self, dynamics: &mut Dynamics<T>, facts: &SwitchFacts) {
         if !self.sized || facts.balanced.contains(&true) {
             dynamics.complete_outputs();
-            self.sizes.take(dynamics);
-            self.sized = true;
+            self.take_sizes(dynamics);
         } else {
             self.sizes.take_rows(dynamics);
         }

@@ -434,14 +434,20 @@ impl<T: Scalar> Decider<T> {
         }
     }
 
+    /// Takes the sizes of what guards are made of from the outputs that `dynamics` hold of the present state.
+    pub fn take_sizes(&mut self, dynamics: &Dynamics<T>) {
+        self.sizes.take(dynamics);
+        self.sized = true;
+    }
+
     /// See [`SwitchFacts::residue`]; `dynamics` holds the values of the moment in the mode that ends.
     pub fn residue(&mut self, dynamics: &mut Dynamics<T>, mode: &Mode, located: &[Guard]) -> f64 {
         let forces = located.iter().filter(|guard| guard.is_single_force());
         let mut forces = forces.peekable();
-        self.sized = forces.peek().is_some();
-        if self.sized {
+        self.sized = false;
+        if forces.peek().is_some() {
             dynamics.complete_outputs();
-            self.sizes.take(dynamics);
+            self.take_sizes(dynamics);
         }
         let reading = Reading::Values(dynamics);
         let relative = |&guard: &Guard| {
