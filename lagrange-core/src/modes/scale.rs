@@ -31,6 +31,8 @@ pub struct Sizes {
     forced: f64,
     /// √D of the forcing and of the rows that act; or more: loads that cancel do not make forces small that they are shared among.
     pub drive: f64,
+    /// Per row that acts its compliance; not a number where it is not known.
+    compliances: Vec<f64>,
 }
 
 impl Sizes {
@@ -113,16 +115,17 @@ impl Sizes {
     /// is given, and where its row nearly vanishes it would have to drive without bound to hold.
     pub fn take_rows<T: Scalar>(&mut self, dynamics: &Dynamics<T>) {
         let d = dynamics.description();
-        let rows = dynamics.acting_rows().iter();
-        let driven = rows.map(|&row| {
+        self.compliances.clear();
+        self.compliances.resize(d.rows.len(), f64::NAN);
+        let mut drive = self.forced;
+        for &row in dynamics.acting_rows() {
             let compliance = self.compliance(row, dynamics);
+            self.compliances[row] = compliance;
             if compliance > 0.0 {
-                dynamics.motion(d.rows[row].bias).value() / compliance.sqrt()
-            } else {
-                0.0
+                let driven = dynamics.motion(d.rows[row].bias).value();
+                drive = drive.hypot(driven / compliance.sqrt());
             }
-        });
-        let drive = driven.fold(self.forced, f64::hypot);
+        }
         let given = d.frictions.iter().enumerate().filter(|(f, friction)| {
             let slides = matches!(dynamics.mode().frictions[*f], FrictionMode::Slip(_));
             slides && matches!(friction.normal, Normal::Given(_))
@@ -223,6 +226,10 @@ impl Sizes {
 
     /// Compliance of a row: its acceleration by a force of 1 along it.
     pub fn compliance<T: Scalar>(&self, row: usize, dynamics: &Dynamics<T>) -> f64 {
+        let known = self.compliances[row];
+        if !known.is_nan() {
+            return known;
+        }
         let rows = dynamics.description().rows;
         let number = |place: ValueRef| dynamics.motion(place).value();
         let parts = rows[row]
