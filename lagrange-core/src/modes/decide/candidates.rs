@@ -27,7 +27,8 @@ const MOST_LISTS: usize = 8;
 /// The candidates for situations met before.
 #[derive(Clone, Debug, Default)]
 pub struct Listings {
-    facts: Vec<Candidates>,
+    /// What each follows from; nothing if from more than can be compared.
+    kept: Vec<(Option<Facts>, Candidates)>,
     /// Index of the list to be written over next.
     oldest: usize,
     /// What is not kept: a part of a system, and more than can be compared.
@@ -50,8 +51,6 @@ enum Grip {
 /// Modes in order of preference.
 #[derive(Clone, Debug, Default)]
 pub struct Candidates {
-    /// What they follow from; nothing if from more than can be compared.
-    facts: Option<Facts>,
     modes: Pool<Mode>,
     /// Rank and place of each.
     order: Vec<(u128, usize)>,
@@ -176,15 +175,15 @@ impl Listings {
         self.grips.clear();
         self.grips.extend(frictions.map(|f| choices.grip(f)));
         let known = |facts: &Facts| facts.are(here, &self.grips);
-        let same = |list: &Candidates| list.facts.as_ref().is_some_and(known);
-        let found = self.facts.iter().position(same).filter(|_| follows);
+        let same = |(facts, _): &(Option<Facts>, _)| facts.as_ref().is_some_and(known);
+        let found = self.kept.iter().position(same).filter(|_| follows);
         let index = found.unwrap_or_else(|| {
-            if self.facts.len() < MOST_LISTS {
-                self.facts.push(Candidates::default());
+            if self.kept.len() < MOST_LISTS {
+                self.kept.push(Default::default());
             }
-            self.oldest = (self.oldest + 1) % self.facts.len();
-            let list = &mut self.facts[self.oldest];
-            list.facts = None;
+            self.oldest = (self.oldest + 1) % self.kept.len();
+            let (facts, list) = &mut self.kept[self.oldest];
+            *facts = None;
             list.modes.clear();
             list.order.clear();
             let mut listing = Listing {
@@ -196,11 +195,11 @@ impl Listings {
             scratch.clone_from(here.present);
             listing.contacts(scratch, 0);
             if list.modes.len() <= most {
-                list.facts = follows.then(|| Facts::of(here, &self.grips));
+                *facts = follows.then(|| Facts::of(here, &self.grips));
             }
             self.oldest
         });
-        self.facts[index].sorted(here, most)
+        self.kept[index].1.sorted(here, most)
     }
 
     /// The same with no more than what one part of the system may do, where the others are as they are in `mode`.
