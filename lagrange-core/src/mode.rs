@@ -70,7 +70,7 @@ impl Sliding {
 }
 
 /// The mode of a system. Lengths are those of the description's lists.
-#[derive(Debug, PartialEq)]
+#[derive(Debug)]
 pub struct Mode {
     /// Which contacts are closed.
     pub contacts: Vec<bool>,
@@ -78,6 +78,15 @@ pub struct Mode {
     pub frictions: Vec<FrictionMode>,
     /// Bit `i`: branch `i` is on its `then` side.
     pub branches: Vec<u64>,
+}
+
+impl PartialEq for Mode {
+    // A few elements are compared sooner than a call of `memcmp` is made.
+    fn eq(&self, other: &Self) -> bool {
+        self.contacts.iter().eq(&other.contacts)
+            && self.branches.iter().eq(&other.branches)
+            && self.frictions == other.frictions
+    }
 }
 
 impl Clone for Mode {
@@ -178,7 +187,7 @@ impl Mode {
             }
             _ => x == y,
         };
-        // A few elements are compared sooner than a call of `memcmp` is made.
+        // As for equality.
         self.contacts.iter().eq(&other.contacts)
             && self.branches.iter().eq(&other.branches)
             && self.frictions.len() == other.frictions.len()

@@ -311,7 +311,10 @@ impl<T: Scalar> Dynamics<T> {
             .position(|compiled| compiled.mode.has_equations_of(mode));
         self.current = known.unwrap_or_else(|| self.compile(mode));
         self.renew();
-        self.modes[self.current].mode.clone_from(mode);
+        // Equations are one but for the directions in which slips begin.
+        if mode.has_incipient_slip() {
+            self.modes[self.current].mode.clone_from(mode);
+        }
         (self.holds, self.given) = (false, false);
     }
 
@@ -390,7 +393,7 @@ impl<T: Scalar> Dynamics<T> {
     }
 
     fn ask_for(&mut self, needs: &[u64], guards_alone: bool) {
-        if self.extra[..] != *needs || self.guards_alone != guards_alone {
+        if !self.extra.iter().eq(needs) || self.guards_alone != guards_alone {
             self.extra.clear();
             self.extra.extend(needs);
             self.guards_alone = guards_alone;

@@ -7,9 +7,17 @@ use crate::system::{Description, Normal};
 use core::ops::Deref;
 
 /// A set of needs; reads as those of a [`Selection`](crate::program::Selection).
-#[derive(Debug, Default, PartialEq, Eq)]
+#[derive(Debug, Default, Eq)]
 pub struct OutputMask {
     words: Vec<u64>,
+}
+
+impl PartialEq for OutputMask {
+    // A few words are compared sooner than a call of `memcmp` is made.
+    #[inline]
+    fn eq(&self, other: &Self) -> bool {
+        self.words.iter().eq(&other.words)
+    }
 }
 
 impl Clone for OutputMask {

@@ -121,8 +121,8 @@ impl Sizes {
         for &row in dynamics.acting_rows() {
             let compliance = self.compliance(row, dynamics);
             self.compliances[row] = compliance;
-            if compliance > 0.0 {
-                let driven = dynamics.motion(d.rows[row].bias).value();
+            let driven = dynamics.motion(d.rows[row].bias).value();
+            if compliance > 0.0 && driven != 0.0 {
                 drive = drive.hypot(driven / compliance.sqrt());
             }
         }
