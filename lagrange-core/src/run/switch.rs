@@ -164,8 +164,10 @@ impl<T: Scalar> Run<T> {
                 roots.extend(composites[k].parts.iter().map(|part| part.guard));
             }
         }
-        self.knowing(Self::strike_with_what_falls);
-        self.settle()
+        self.knowing(|run, facts| {
+            run.strike_with_what_falls(facts);
+            run.settle_knowing(facts)
+        })
     }
 
     /// Where a slip has come to zero, what rounding leaves of the velocities in the step is zero too: along a curved path a drag by |v| would
@@ -246,10 +248,10 @@ impl<T: Scalar> Run<T> {
         } else {
             self.switcher.redundant.clear();
         }
-        let outcome = core::mem::take(&mut self.switcher.collider.outcome);
-        let impulses = if hit { &outcome.impulses[..] } else { &[] };
-        self.log_changes(impulses, self.switcher.decider.decision.ambiguous);
-        self.switcher.collider.outcome = outcome;
+        let impulses = core::mem::take(&mut self.switcher.collider.outcome.impulses);
+        let told = if hit { &impulses[..] } else { &[] };
+        self.log_changes(told, self.switcher.decider.decision.ambiguous);
+        self.switcher.collider.outcome.impulses = impulses;
         self.stops_of_the_mode()
     }
 
