@@ -183,11 +183,12 @@ fn planned(declaration: &Declaration, sink: &mut Diagnostics) -> Option<(Program
         return too_large(declaration, sink);
     }
     match equations.map(|(equations, scope)| (plan::plan(equations), scope)) {
-        Some((program, _)) if program.equations.system.pool.overflowed() => {
-            sink.report(Code::Overflow, &declaration.name, &[&"the equations"]);
-            None
-        }
         Some((mut program, scope)) => {
+            if let Some(outgrown) = program.equations.system.pool.outgrown() {
+                let what = outgrown.of(&"the equations");
+                sink.report(Code::Overflow, &declaration.name, &[&what]);
+                return None;
+            }
             // What is planned does not change any more, so checks cannot change what is emitted.
             let (equations, verdicts) =
                 check::verdicts(declaration, program.equations, scope, sink);

@@ -17,7 +17,7 @@ const MOST_COORDINATES: usize = 60;
 ///   the constrained system can be regular where M alone is not.
 /// * Coordinates may share one inertia, as in ½ m (ẋ + ẏ)².
 /// * Impacts need M free of velocities.
-/// * Exact numbers that overflowed make every form unreliable.
+/// * Exact numbers and exponents that have outgrown their bounds make every form unreliable.
 pub(super) fn check(
     sheet: &Sheet,
     inertias: &[Inertia],
@@ -53,12 +53,12 @@ pub(super) fn check(
     if !system.contacts.is_empty() {
         quadratic(system, inertias, sink);
     }
-    if system.pool.overflowed() {
+    if let Some(outgrown) = system.pool.outgrown() {
         let (at, name) = match &sheet.outgrown {
             Some(item) => (item.span, format!("`{}`", item.text)),
             None => (system.name.span(), "the equations".to_owned()),
         };
-        sink.report(Code::Overflow, at, &[&name]);
+        sink.report(Code::Overflow, at, &[&outgrown.of(&name)]);
     }
     sink.count() == before
 }

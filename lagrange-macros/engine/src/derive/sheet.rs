@@ -31,7 +31,7 @@ impl Sheet {
 
     /// Notes whether exact numbers have outgrown their digits in what has just been derived of this item.
     pub fn derived_of(&mut self, item: ItemName) {
-        if self.outgrown.is_none() && self.system.pool.overflowed() {
+        if self.outgrown.is_none() && self.system.pool.outgrown().is_some() {
             self.outgrown = Some(item);
         }
     }

@@ -96,7 +96,7 @@ table! {
     NoSuchMember "E309" "`{0}` has no member `{1}`" "{2}";
     EmptyRange "E310" "the range {0}..{1} is empty" "the upper bound must be larger than the lower one";
     TooMany "E311" "{0} elements are too many" "a declaration may unroll to {1}";
-    Overflow "E312" "the exact numbers of {0} outgrow 38 digits" "make such numbers parameters";
+    Overflow "E312" "{0}" "make such numbers parameters";
     ListProduct "E313" "the product of two lists has no single meaning" "write `dot(a, b)`, `cross(a, b)`, or single elements";
 
     NoValue "E314" "`{0}` has no value" "the numbers are outside of where it is defined";

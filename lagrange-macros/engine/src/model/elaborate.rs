@@ -8,10 +8,10 @@ use super::meaning::{Kind, Meaning, Names};
 use super::value::Value;
 use super::{ItemName, System};
 use crate::ast::{Declaration, Head, Item, ItemKind, Name};
-use crate::diagnostics::{Code, Diagnostics};
+use crate::diagnostics::{Code, Diagnostics, Extent};
 use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Pool, Symbol};
-use proc_macro2::Span;
+use core::fmt::Display;
 
 /// Resolves all names of a declaration; mistakes go to the sink.
 pub fn system(declaration: &Declaration, sink: &mut Diagnostics) -> Option<System> {
@@ -330,11 +330,13 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// Exact numbers that did not fit make every form doubtful: reported where it first happens.
-    fn check_overflow(&mut self, at: Span, name: &str) {
-        if self.system.pool.overflowed() && !self.overflowed {
+    /// Exact numbers and exponents that did not fit make every form doubtful: reported where it first happens.
+    pub(super) fn check_overflow(&mut self, at: impl Into<Extent>, name: &dyn Display) {
+        if let Some(outgrown) = self.system.pool.outgrown()
+            && !self.overflowed
+        {
             self.overflowed = true;
-            self.sink.report(Code::Overflow, at, &[&name]);
+            self.sink.report(Code::Overflow, at, &[&outgrown.of(name)]);
         }
     }
 

@@ -38,7 +38,7 @@ pub(super) struct Elaboration<'a> {
     pub outputs: Vec<String>,
     /// Whether something could not be read; the sink says why.
     pub dropped: bool,
-    /// Whether an exact number that did not fit has been reported.
+    /// Whether it has been reported that something has outgrown what is kept exactly.
     pub overflowed: bool,
     /// Elements that arrays, sums and indexed items have been unrolled to.
     pub unrolled: i64,
@@ -69,7 +69,7 @@ impl<'a> Elaboration<'a> {
     /// Goes on with a system that has been closed.
     pub fn reopen(system: System, scope: Scope, sink: &'a mut Diagnostics) -> Elaboration<'a> {
         Elaboration {
-            overflowed: system.pool.overflowed(),
+            overflowed: system.pool.outgrown().is_some(),
             branches: (system.branches.iter().map(|branch| branch.guard))
                 .zip(0..)
                 .collect(),

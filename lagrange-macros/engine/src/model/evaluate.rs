@@ -32,11 +32,7 @@ impl Elaboration<'_> {
     /// A value of any shape.
     pub fn value(&mut self, expr: &Expr, context: Context) -> Option<Value> {
         let value = self.form(expr, context);
-        if self.system.pool.overflowed() && !self.overflowed {
-            self.overflowed = true;
-            let name = format!("`{expr}`");
-            self.sink.report(Code::Overflow, expr.extent, &[&name]);
-        }
+        self.check_overflow(expr.extent, &format_args!("`{expr}`"));
         value
     }
 

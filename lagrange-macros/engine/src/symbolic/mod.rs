@@ -36,7 +36,7 @@ mod trigonometry;
 mod zeros;
 
 pub use node::{ExprId, Function, Node, Symbol};
-pub use pool::{MOST_OPERANDS, Pool};
+pub use pool::{MOST_OPERANDS, Outgrown, Pool};
 pub use rational::Rational;
 
 #[cfg(test)]

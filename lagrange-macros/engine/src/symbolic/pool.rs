@@ -5,10 +5,33 @@ use super::hash::{Memo, hash_of};
 use super::square::Square;
 use super::table::Table;
 use super::{ExprId, Node, Rational, Symbol};
+use core::fmt;
 
 /// With more expressions and operands than these a pool is full: a derivation that needs them would take a build,
 /// unoptimised, half a minute and more.
 pub const MOST_OPERANDS: usize = 1_000_000;
+
+/// Exponents go up to this: they multiply where powers are raised, and once more where a square root of a product is, which stays below 2³¹.
+pub(super) const MOST_EXPONENT: u128 = 10_000;
+
+/// What has become larger than is kept exactly.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Outgrown {
+    /// Numerators and denominators.
+    Numbers,
+    /// Exponents of products, beyond the largest that is kept.
+    Exponents,
+}
+
+impl Outgrown {
+    /// What is wrong with `what`, in words.
+    pub fn of(self, what: &dyn fmt::Display) -> String {
+        match self {
+            Outgrown::Numbers => format!("the exact numbers of {what} outgrow 38 digits"),
+            Outgrown::Exponents => format!("the exponents of {what} outgrow {MOST_EXPONENT}"),
+        }
+    }
+}
 
 /// All expressions of a system.
 #[derive(Clone)]
@@ -23,7 +46,7 @@ pub struct Pool {
     pub(super) has_fixed: bool,
     leaves: Vec<ExprId>,
     pub(super) pi: Option<ExprId>,
-    pub(super) overflow: bool,
+    pub(super) outgrown: Option<Outgrown>,
     /// Nodes, and the operands of each.
     size: usize,
     /// With more of them it is full.
@@ -62,7 +85,7 @@ impl Pool {
             has_fixed: false,
             leaves: Vec::new(),
             pi: None,
-            overflow: false,
+            outgrown: None,
             size: 0,
             most: MOST_OPERANDS,
             effort: 0,
@@ -178,9 +201,14 @@ impl Pool {
         }
     }
 
-    /// Whether an exact number overflowed on the way (then forms are unreliable; reported as an error).
-    pub fn overflowed(&self) -> bool {
-        self.overflow
+    /// What outgrew its bounds first on the way (then forms are unreliable; reported as an error).
+    pub fn outgrown(&self) -> Option<Outgrown> {
+        self.outgrown
+    }
+
+    /// Notes that something has, unless it was noted before.
+    pub(super) fn note_outgrown(&mut self, what: Outgrown) {
+        self.outgrown = self.outgrown.or(Some(what));
     }
 
     /// Number of nodes.
@@ -203,10 +231,10 @@ impl Pool {
         self.nodes.is_empty()
     }
 
-    /// The result, or 1 with the overflow noted.
+    /// The result, or 1 where a number has outgrown its digits, which is noted.
     pub(super) fn checked(&mut self, result: Option<Rational>) -> Rational {
         result.unwrap_or_else(|| {
-            self.overflow = true;
+            self.note_outgrown(Outgrown::Numbers);
             Rational::ONE
         })
     }

@@ -3,7 +3,8 @@
 //! x^a x^b = x^(a+b), (x^a)^n = x^(an) for integer n, and for any exponent where x^a is never negative; (√x)² = x,
 //! but √(x²) stays.
 
-use super::{ExprId, Function, Node, Pool, Rational};
+use super::pool::MOST_EXPONENT;
+use super::{ExprId, Function, Node, Outgrown, Pool, Rational};
 
 /// Factors on their way into a product.
 pub(super) struct Factors {
@@ -109,6 +110,10 @@ impl Pool {
             let zero = self.integer(0);
             all.plain.retain(|&(base, _)| base == zero);
             all.coefficient = Rational::integer(i64::from(!all.plain.is_empty()));
+        }
+        let is_high = |&(_, r): &(ExprId, Rational)| r.floor().unsigned_abs() > MOST_EXPONENT;
+        if all.plain.iter().any(is_high) {
+            self.note_outgrown(Outgrown::Exponents);
         }
         let core = match all.plain[..] {
             [] => self.integer(1),

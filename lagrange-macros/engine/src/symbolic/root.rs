@@ -1,7 +1,7 @@
 //! Numbers to rational powers, split into primes: √8 = 2 · 2^(1/2), √(1/2) = 1/2 · 2^(1/2), √(9/4) = 3/2.
 
 use super::product::Factors;
-use super::{Pool, Rational};
+use super::{Outgrown, Pool, Rational};
 
 impl Pool {
     /// Multiplies by n^r.
@@ -66,7 +66,7 @@ impl Pool {
 
     fn multiply_prime(&mut self, all: &mut Factors, prime: u128, count: i64, r: Rational) {
         let Some(prime) = i128::try_from(prime).ok().and_then(|n| Rational::new(n, 1)) else {
-            self.overflow = true;
+            self.note_outgrown(Outgrown::Numbers);
             return;
         };
         let exponent = self.times(r, Rational::integer(count));

@@ -80,6 +80,15 @@ fn mistakes_point_at_their_token() {
             "2:98 E311",
         ),
         ("potential = 10^30*10^30*x", "2:13 E312"),
+        // 512^3 is more than exponents go up to: it is said where they first are.
+        (
+            "define(u = x^512, w = u^512, z = w^512), potential = z",
+            "2:23 E312",
+        ),
+        (
+            "define(u = 1/x^1000, w = sqrt(u)), potential = w^1000",
+            "2:48 E312",
+        ),
         ("contact(c: x >= 0 at (x, 0))", "2:22 E518"),
         ("contact(c: x >= 0 at (0, y))", "2:22 E508"),
         ("contact(c: x >= 0 at (y, 2*y))", "2:22 E508"),

@@ -79,7 +79,10 @@ fn a_plan_keeps_values_for_every_set_of_needs() {
             .map(|symbol| (symbol, dice.number()))
             .collect();
         let program = plan(equations);
-        assert!(!program.equations.system.pool.overflowed(), "seed {seed}");
+        assert!(
+            program.equations.system.pool.outgrown().is_none(),
+            "seed {seed}"
+        );
         for needs in (0..1 << NEEDS).filter(|needs| needs & 1 == 1) {
             for branches in 0..4 {
                 compared += compare(

@@ -147,7 +147,7 @@ fn each(seed: u64, rounds: usize, check: &mut Check) -> usize {
                 checked += 1;
             }
         }
-        assert!(!desk.pool.overflowed());
+        assert!(desk.pool.outgrown().is_none());
     }
     checked
 }
