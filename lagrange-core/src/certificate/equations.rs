@@ -42,6 +42,8 @@ pub(super) struct Equations {
     pub largest: Vec<f64>,
     /// Bound of rounding.
     pub exact: f64,
+    /// Per coordinate: its inertia, where that has been measured.
+    pub inertia: Vec<f64>,
     /// Per coordinate: accelerations that forces of its size would make, where that has been measured.
     pub swiftness: Vec<f64>,
     /// Per row: the value whose rate its force acts along, and its level.
@@ -198,6 +200,7 @@ impl Equations {
             size: zero(),
             largest: zero(),
             exact,
+            inertia: zero(),
             swiftness: zero(),
             rows: (0..d.rows.len())
                 .map(|row| source(d, declaration, row))

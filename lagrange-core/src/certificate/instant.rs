@@ -96,6 +96,7 @@ impl Equations {
         let largest = at.shared.then(|| self.largest.clone());
         if let Some(mut loads) = largest.clone() {
             // A share may be small, or nothing, beside the load that it is a part of.
+            self.measure_inertia(at);
             self.spread(&mut loads, mode);
             self.largest = loads;
         }

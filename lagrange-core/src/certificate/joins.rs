@@ -80,7 +80,7 @@ impl<T: Scalar> Examination<'_, T> {
                         // are.
                         let left = when - self.time;
                         let known = self.finest * when.abs();
-                        let positions = self.expected.q.iter_mut().zip(&mut self.rounding.q);
+                        let positions = self.expected.q.iter_mut().zip(&mut self.rounding);
                         let velocities = self.expected.v.iter().zip(&found.v);
                         for ((q, rounding), (v, after)) in positions.zip(velocities) {
                             *q += 0.5 * (v + after) * left;
@@ -129,33 +129,36 @@ impl<T: Scalar> Examination<'_, T> {
         positions.chain(velocities).map(square).sum()
     }
 
-    /// What rounding may leave of the state at the end of a step.
-    pub(super) fn take_rounding(&mut self) {
+    /// How large the state has been in a step.
+    pub(super) fn take_reach(&mut self) {
+        self.rounding.fill(0.0);
         let lists = [
-            (&mut self.rounding.q, &self.begin.q, &self.last.q),
-            (&mut self.rounding.v, &self.begin.v, &self.last.v),
+            (&mut self.reached.q, &self.begin.q, &self.last.q),
+            (&mut self.reached.v, &self.begin.v, &self.last.v),
         ];
-        for (rounding, begin, last) in lists {
+        for (reached, begin, last) in lists {
             for i in 0..begin.len() {
-                rounding[i] = self.finest * begin[i].abs().max(last[i].abs());
+                reached[i] = begin[i].abs().max(last[i].abs());
             }
         }
     }
 
-    /// The motion goes on in the state where it was.
+    /// The motion goes on in the state where it was. Where that is near zero a step that comes from afar has it to the tolerance of the way.
     pub(super) fn join(&mut self, time: f64, found: &State<f64>) {
-        let (expected, rounding) = (&self.expected, &self.rounding);
-        let q = (&expected.q, &rounding.q, &found.q);
-        let v = (&expected.v, &rounding.v, &found.v);
+        let (expected, reached) = (&self.expected, &self.reached);
+        let q = (&expected.q, &reached.q, &found.q);
+        let v = (&expected.v, &reached.v, &found.v);
         let q = (&mut self.errors.q, &mut self.sizes.q, q);
         let v = (&mut self.errors.v, &mut self.sizes.v, v);
-        for (errors, sizes, (expected, rounding, found)) in [q, v] {
+        for (errors, sizes, (expected, reached, found)) in [q, v] {
             for i in 0..found.len() {
-                let jump = (found[i] - expected[i]).abs();
-                // What is no number stays so.
-                errors[i] = jump - rounding[i].min(jump);
-                sizes[i] = found[i].abs();
+                errors[i] = (found[i] - expected[i]).abs();
+                sizes[i] = found[i].abs().max(reached[i]);
             }
+        }
+        for (error, rounding) in self.errors.q.iter_mut().zip(&self.rounding) {
+            // What is no number stays so.
+            *error -= rounding.min(*error);
         }
         let components = (2.0 * found.q.len() as f64).sqrt();
         self.book(Subject::Joins, time, components);

@@ -26,8 +26,10 @@ pub(super) struct Examination<'a, T: Scalar> {
     pub events: usize,
     /// State in which the motion is to go on.
     pub expected: State<f64>,
-    /// What rounding may make of it: the part [`FINEST`] of how large it was in the step before, from where it may have come to rest.
-    pub rounding: State<f64>,
+    /// How large it was in the step before, which was made to the tolerance beside that.
+    pub reached: State<f64>,
+    /// What rounding of the time leaves open of its positions.
+    pub rounding: Vec<f64>,
     /// [`FINEST`] of the numbers of the run.
     pub finest: f64,
     /// Its time, s.
@@ -211,7 +213,8 @@ impl<'a, T: Scalar> Examination<'a, T> {
             watches: Watches::new(record, declaration, &parameters),
             events: 0,
             expected: start.clone(),
-            rounding: State::new(vec![0.0; start.q.len()], vec![0.0; start.v.len()]),
+            reached: start.clone(),
+            rounding: vec![0.0; start.q.len()],
             finest,
             time: record.first_time(),
             unevaluated: 0,
@@ -278,7 +281,7 @@ impl<'a, T: Scalar> Examination<'a, T> {
                     // What cannot be evaluated counts where the step is looked at.
                     _ = self.watch(k);
                 }
-                self.take_rounding();
+                self.take_reach();
                 core::mem::swap(&mut self.expected, &mut self.last);
                 self.time = t + h * end;
             }

@@ -10,6 +10,17 @@ use crate::trajectory::State;
 /// Sizes that grow by less than this factor have settled.
 const GROWS: f64 = 1.1;
 
+/// Rounding makes of a value so many times the terms that make it: no gradient makes that of a height 1 − cos φ small.
+const ROUNDING: f64 = 2.0 * f64::EPSILON;
+
+/// What rounding makes of a value that consists of `terms`. At the root of 0 its slope is infinite, and says nothing of rounding.
+pub(super) fn rounding_of(terms: f64) -> f64 {
+    match terms.is_finite() {
+        true => ROUNDING * terms,
+        false => 0.0,
+    }
+}
+
 /// Velocities of about 1 more, each by another factor: equal ones would cancel in the speed of a foot, ẏ − ṡ.
 fn raised(v: &[f64]) -> Vec<f64> {
     let raised = v.iter().enumerate();
@@ -33,23 +44,21 @@ impl Equations {
     pub fn balance_with_sizes(&mut self, at: Situation<'_>, mode: &Mode) {
         /// Changes of the state, whose rounding errors do not matter and which are small enough to be linear.
         const CHANGE: f64 = 1.0 / 1_048_576.0;
-        /// So many coordinates in a row change with one sign.
-        const SIGNS: [usize; 2] = [1, 2];
-        // No two change alike, so that no difference of coordinates stays as it is; and what changes of one kind leave as it is, others do not.
-        let changed = |x: &[f64], signs: usize| -> Vec<f64> {
-            let changed = x.iter().enumerate().map(|(i, x)| {
-                let sign = if (i / signs).is_multiple_of(2) {
-                    1.0
-                } else {
-                    -1.0
-                };
-                x + sign * CHANGE * uneven(i, GOLDEN) * (1.0 + x.abs())
+        /// So often the state is changed: what one change leaves as it is, another does not.
+        const CHANGES: u64 = 2;
+        // Changes follow no rule: by one, such as equal steps from a coordinate to the next, some differences of coordinates would stay as they are, and second
+        // differences as in a net, and so would the forces that cancel in them.
+        let changed = |x: &[f64], random: &mut fastrand::Rng| -> Vec<f64> {
+            let changed = x.iter().map(|x| {
+                let sign = if random.bool() { 1.0 } else { -1.0 };
+                x + sign * (0.5 + random.f64()) * CHANGE * (1.0 + x.abs())
             });
             changed.collect()
         };
         let mut beside = Vec::new();
-        for signs in SIGNS {
-            let (q, v) = (changed(at.q, signs), changed(at.v, signs));
+        for seed in 0..CHANGES {
+            let mut random = fastrand::Rng::with_seed(seed);
+            let (q, v) = (changed(at.q, &mut random), changed(at.v, &mut random));
             self.balance(Situation { q: &q, v: &v, ..at });
             beside.push(self.residual.clone());
         }
@@ -109,8 +118,7 @@ impl Equations {
         for row in 0..self.d.rows.len() {
             if self.acts(row, mode) {
                 let (value, level) = self.row(row);
-                let (along, square) = self.along(value, level, sizes);
-                let force = along / square.max(f64::MIN_POSITIVE);
+                let force = self.force_of_row(value, level, sizes);
                 self.bring(level, force, &mut brought);
             }
         }
@@ -120,6 +128,28 @@ impl Equations {
             }
         }
         brought
+    }
+
+    /// The force of a row that keeps its rate as it is against forces of these sizes, Σ |aₖ| sizeₖ/mₖ / Σ aₖ²/mₖ, m the inertia of coordinates: in all units the
+    /// same. Coordinates without inertia follow the others, and count where there are none.
+    fn force_of_row(&mut self, value: usize, level: Level, sizes: &[f64]) -> f64 {
+        self.values.gradient_size(value, 0, &mut self.sizes_along);
+        let elements = self.sizes_along.iter().map(|sizes| sizes[level as usize]);
+        let acting = elements.zip(&self.inertia).zip(sizes);
+        let acting = acting.filter(|((a, _), _)| *a > 0.0);
+        let inertias = acting.clone().map(|((_, m), _)| *m);
+        let least = inertias.filter(|m| *m > 0.0).fold(f64::INFINITY, f64::min);
+        let (mut along, mut square) = (0.0, 0.0);
+        for ((a, &m), size) in acting {
+            let mobility = match (least.is_finite(), m > 0.0) {
+                (true, true) => least / m,
+                (true, false) => 0.0,
+                (false, _) => 1.0,
+            };
+            along += mobility * a * size;
+            square += mobility * a * a;
+        }
+        along / square.max(f64::MIN_POSITIVE)
     }
 
     /// Takes a force along the value that was looked at last, where it is more than what is brought already.
@@ -135,8 +165,7 @@ impl Equations {
         let coefficient = self.values.value(friction.kinetic_coefficient);
         for source in self.d.frictions[f].normal.rows(self.d) {
             let (value, level) = self.row(source);
-            let (along, square) = self.along(value, level, sizes);
-            let force = coefficient * along / square.max(f64::MIN_POSITIVE);
+            let force = coefficient * self.force_of_row(value, level, sizes);
             for &slip in friction.slip {
                 self.along(slip, Level::Velocity, sizes);
                 self.bring(Level::Velocity, force, brought);
@@ -182,11 +211,9 @@ impl Equations {
         change(&self.sizes_along, &self.sizes, [at.q, at.v])
     }
 
-    /// Accelerations that forces of the sizes of the last balance would make. The inertia of a coordinate is its momentum where it moves
-    /// alone with velocity 1; terms of either sign count alike, so that it is not too small. What has none at all, as the scalar part of an
-    /// attitude that is 1, is moved by the rows that act on it.
-    fn measure_swiftness(&mut self, at: Situation<'_>, mode: &Mode) {
-        self.balance(at);
+    /// The inertia of each coordinate: its momentum where it moves alone with velocity 1; terms of either sign count alike, so that it is not too
+    /// small.
+    pub fn measure_inertia(&mut self, at: Situation<'_>) {
         let energies: Vec<usize> = self.energies().map(|(value, _)| value).collect();
         let mut v = vec![0.0; at.v.len()];
         for j in 0..v.len() {
@@ -198,14 +225,22 @@ impl Equations {
                     .gradient_size(value, 0, &mut self.sizes_along);
                 self.sizes_along[j][1]
             });
-            self.swiftness[j] = momenta.sum();
+            self.inertia[j] = momenta.sum();
             v[j] = 0.0;
         }
+    }
+
+    /// Accelerations that forces of the sizes of the last balance would make. What has no inertia at all, as the scalar part of an
+    /// attitude that is 1, is moved by the rows that act on it.
+    fn measure_swiftness(&mut self, at: Situation<'_>, mode: &Mode) {
+        self.balance(at);
+        self.measure_inertia(at);
         let without: Vec<usize> = (0..at.v.len())
-            .filter(|&i| self.swiftness[i] == 0.0)
+            .filter(|&i| self.inertia[i] == 0.0)
             .collect();
-        for (swift, size) in self.swiftness.iter_mut().zip(&self.size) {
-            *swift = if *swift > 0.0 { size / *swift } else { 0.0 };
+        let pairs = self.size.iter().zip(&self.inertia);
+        for (swift, (size, &inertia)) in self.swiftness.iter_mut().zip(pairs) {
+            *swift = if inertia > 0.0 { size / inertia } else { 0.0 };
         }
         if !without.is_empty() {
             self.measure_swiftness_by_rows(&without, at, mode);

@@ -392,3 +392,134 @@ fn what_is_true_only_just_is_missed() {
         }
     }
 }
+
+/// Strings that hang in columns, each knot by one to the knot below it, four columns side by side.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y[24], z[24]),
+    kinetic = sum(k in 0..24: der(y[k])^2 + der(z[k])^2) / 100,
+    potential(weight: 981/5000 * sum(k in 0..24: z[k])),
+    potential(strings: stiffness/2
+        * sum(k in 0..20: (norm([length + y[k + 4] - y[k], z[k + 4] - z[k]]) - length)^2)),
+    potential(ends: stiffness/2 * sum(k in 0..4: (norm([length + y[k], z[k]]) - length)^2)),
+    start(flat: z[0] = 0),
+)]
+struct Columns {
+    stiffness: f64,
+    length: f64,
+}
+
+#[test]
+fn forces_of_stiff_strings_cancel_to_rounding_of_their_lengths() {
+    for (stiffness, length) in [(1e3, 0.1), (1e4, 0.1), (1e4, 1.0)] {
+        let columns = Columns { stiffness, length };
+        let run = Simulation::new(&columns).run(columns.at(Columns::FLAT), 0.0..0.1);
+        let certificate = certificate(&run.expect("a run"));
+        assert!(certificate.holds(), "{columns:?}: {certificate}");
+    }
+}
+
+/// A body that flies by, as it is seen from a cart that drives a flywheel.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(phi, x, r, theta),
+    define(px = x + r * sin(theta), py = r * cos(theta)),
+    kinetic = cart/2 * der(x)^2 + inertia/2 * der(phi)^2 + (der(px)^2 + der(py)^2) / 2,
+    potential = 10 * py,
+    constraint(gear: der(x) == radius * der(phi)),
+    start(thrown: r = radius, theta = 1, der(r) = speed, der(theta) = 2 * speed / radius,
+        der(x) = speed, der(phi) = speed / radius),
+)]
+struct Flywheel {
+    cart: f64,
+    inertia: f64,
+    radius: f64,
+    speed: f64,
+}
+
+#[test]
+fn balances_are_measured_alike_in_all_units() {
+    for radius in [1.0, 1e4, 1e6] {
+        let flywheel = Flywheel {
+            cart: 0.01,
+            inertia: 0.5 * radius * radius,
+            radius,
+            speed: f64::sqrt(radius),
+        };
+        let run = Simulation::new(&flywheel);
+        let run = run.run(flywheel.at(Flywheel::THROWN), 0.0..3.0 * radius.sqrt());
+        let certificate = certificate(&run.expect("a run"));
+        assert!(certificate.holds(), "{flywheel:?}: {certificate}");
+    }
+}
+
+/// A bar that falls over on its end.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, theta),
+    kinetic = (der(x)^2 + der(y)^2) / 2 + length^2 / 24 * der(theta)^2,
+    potential = 9.81 * y,
+    contact(heel: y >= length/2 * sin(theta)),
+    start(leaning: theta = 6/5, y = length/2 * sin(6/5)),
+    stop(down: y <= 0),
+)]
+struct Bar {
+    length: f64,
+}
+
+#[test]
+fn a_step_that_ends_at_zero_was_made_beside_where_it_began() {
+    for length in [1.0, 1e3, 1e5] {
+        let bar = Bar { length };
+        for method in ["auto", "dop853", "dopri5", "radau5"] {
+            let run = Simulation::new(&bar).method(method.parse().expect("a method"));
+            let run = run.run(bar.at(Bar::LEANING), 0.0..3.0 * length.sqrt());
+            let certificate = certificate(&run.expect("a run"));
+            assert!(certificate.holds(), "{method}, {length}: {certificate}");
+        }
+    }
+}
+
+/// What is found of a jump of a position by this share of the length.
+fn jump(share: f64) -> Certificate {
+    let bar = Bar { length: 1e3 };
+    let run = Simulation::new(&bar).run(bar.at(Bar::LEANING), 0.0..90.0);
+    let mut run = run.expect("a run");
+    run.last.q[0] += share * bar.length;
+    certificate(&run)
+}
+
+#[test]
+fn a_jump_of_a_thousand_tolerances_is_found_beside_a_long_way() {
+    assert!(jump(0.0).holds());
+    finds(&jump(1e-6), &[Subject::Joins]);
+}
+
+/// A body on two rough planes: the second is approached, and the impulse is that of the first, at which the body is held.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, phi),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2) + der(phi)^2 / 2,
+    contact(floor: y - 4/5 * sin(phi) + 4/5 * (1 - cos(phi)) >= 0),
+    contact(slope: cos(tilt) * (x + sin(phi)/2 - (1 - cos(phi))/2)
+        + sin(tilt) * (y + sin(phi)/2 + (1 - cos(phi))/2) >= 0),
+    friction(grip on floor: slip = der(x + 4/5 * sin(phi) + 4/5 * (1 - cos(phi))), static = 2),
+    friction(hold on slope: slip = -sin(tilt) * der(x + sin(phi)/2 - (1 - cos(phi))/2)
+        + cos(tilt) * der(y + sin(phi)/2 + (1 - cos(phi))/2), static = 7/2),
+)]
+struct Wedged {
+    mass: f64,
+    tilt: f64,
+}
+
+#[test]
+fn an_impulse_of_what_is_held_alone_is_an_impact() {
+    for mass in [1.6, 1.8, 2.5] {
+        let start = State::new(vec![0.0; 3], vec![-1.3, 0.8 * 0.8, 0.8]);
+        let run = Simulation::new(&Wedged { mass, tilt: 0.4 }).run(start, 0.0..1e-9);
+        let run = run.expect("a run");
+        assert_eq!(run.events()[0].kind, EventKind::Impact);
+        let certificate = certificate(&run);
+        assert!(certificate.holds(), "{mass}: {certificate}");
+    }
+}

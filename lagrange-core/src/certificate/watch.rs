@@ -5,6 +5,7 @@
 //! is known the time between them is halved. A dip no deeper than the tolerance does not count.
 
 use super::equations::{Situation, change};
+use super::sizes::rounding_of;
 use super::{Findings, Subject};
 use crate::arithmetic::Scalar;
 use crate::declaration::{Declaration, Evaluator, Inputs, Interval, Real};
@@ -49,9 +50,6 @@ enum Kind {
     Stop(usize),
     Mark(usize),
 }
-
-/// Rounding makes of a value so many times the terms that make it: no gradient makes that of a height 1 − cos φ small.
-const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 /// A guard and its last value, with its time. A gap counts where its region is ≥ 0. Stops and marks are true where all terms are.
 #[derive(Debug)]
@@ -341,13 +339,7 @@ impl Watches {
             // What is as it should be is not measured, and forces do not follow from the state alone.
             let (mut reach, mut rounding) = (0.0, 0.0);
             if error > 0.0 {
-                let terms = self.values.gradient_size(term, 0, &mut self.changes);
-                // At the root of 0 its slope is infinite, and says nothing of rounding.
-                rounding = if terms.is_finite() {
-                    ROUNDING * terms
-                } else {
-                    0.0
-                };
+                rounding = rounding_of(self.values.gradient_size(term, 0, &mut self.changes));
                 reach = change(&self.changes, &self.sizes, [at.q, at.v]);
             }
             let reach = if reach > 0.0 { reach } else { 1.0 };
