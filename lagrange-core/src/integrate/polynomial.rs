@@ -55,6 +55,13 @@ impl<T: Scalar> StepPolynomial<T> {
         self.t + self.h * s
     }
 
+    /// How far positions are from zero on the step, at most.
+    pub fn extent(&self) -> f64 {
+        let rows = self.q.chunks_exact(self.degree + 1);
+        let sizes = rows.map(|row| row.iter().map(|c| c.value().abs()).sum());
+        sizes.fold(0.0, f64::max)
+    }
+
     /// Coefficients of the position of coordinate `i`.
     fn position_row(&self, i: usize) -> &[T] {
         &self.q[i * (self.degree + 1)..][..self.degree + 1]

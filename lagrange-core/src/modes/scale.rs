@@ -162,7 +162,7 @@ impl Sizes {
                 sizes.fold(0.0, f64::max)
             }
             Guard::StickUpper(f) | Guard::StickLower(f) => self.limit(f, dynamics),
-            Guard::StickCone(f) => (cone(f, dynamics).0 * self.limit(f, dynamics)).powi(2),
+            Guard::StickCone(f) => self.of_cone(f, 0.0, dynamics),
             Guard::NormalForceSign(f) => self.normal(f, dynamics),
             Guard::Region(_) | Guard::Branch(_) | Guard::Stop(..) | Guard::Mark(..) => 0.0,
             // It is relative already.
@@ -170,15 +170,11 @@ impl Sizes {
         }
     }
 
-    /// The value of a guard as a share of what makes it. That of a cone is a difference of squares, whose terms are as exact as the forces are: a
-    /// force is off by its own share.
-    pub fn share<T: Scalar>(&self, guard: Guard, value: f64, dynamics: &Dynamics<T>) -> f64 {
-        let size = self.of(guard, dynamics);
-        let size = match guard {
-            Guard::StickCone(f) => size.sqrt() * cone(f, dynamics).1,
-            _ => size,
-        };
-        value.abs() / size.max(f64::MIN_POSITIVE)
+    /// The same of the cone of friction `f`, a difference of squares: those of forces are off by as much as these, times what they are, or will be where they
+    /// grow to `forces`, in the unit of the cone.
+    pub fn of_cone<T: Scalar>(&self, f: usize, forces: f64, dynamics: &Dynamics<T>) -> f64 {
+        let (unit, sum) = cone(f, dynamics);
+        unit * self.limit(f, dynamics) * sum.max(forces)
     }
 
     /// Size of the accelerations of coordinate `j`.

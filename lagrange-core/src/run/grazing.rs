@@ -33,8 +33,8 @@ impl<T: Scalar> Run<T> {
                     let depth = self.depth_of_touch(contact, end, known);
                     depth.map(|depth| 2.0 * depth / extent)
                 }
-                Guard::StickCone(friction) => {
-                    let depth = self.depth_where_load_vanishes(friction, end, known);
+                Guard::StickCone(_) | Guard::Composite(_) => {
+                    let depth = self.depth_where_loads_vanish(guard, end, known);
                     depth.map(|depth| 2.0 * depth)
                 }
                 _ => None,

@@ -29,6 +29,9 @@ const LOCATED: f64 = 1e-9;
 /// Whether the motion goes out at an edge is seen over this share of its extent, and where it goes out by no more than this share of that again it does not.
 const SOON: f64 = 1e-6;
 
+/// Positions of a step are rounded to this, relative to how far it reaches.
+const OF_STEP: f64 = 64.0 * f64::EPSILON;
+
 /// At so many parts of a step it is seen whether it stays at an edge.
 const PLACES: usize = 8;
 
@@ -59,7 +62,10 @@ impl<T: Scalar> Run<T> {
         let Some(curve) = self.locator.polynomials.of(edge) else {
             return true;
         };
-        if self.is_held_at(edge, s) {
+        // What another contact holds at the edge, but for rounding, is in the region as what is there exactly is.
+        let contacts = self.now.mode.contacts.iter().enumerate();
+        let mut others = contacts.filter(|&(other, closed)| other != c && *closed);
+        if self.is_held_at(edge, s) || others.next().is_some() && self.stays_at_edge(edge, curve) {
             return true;
         }
         // Just after the edge has been located, its first coefficient is zero.
@@ -85,12 +91,17 @@ impl<T: Scalar> Run<T> {
         (LOCATED * size).max(polynomials.rounding(distance, guard, &self.dynamics))
     }
 
-    /// Whether a guard is an edge that the motion is at over the whole step, as far as rounding tells: as what has come to rest there.
+    /// Whether a guard is an edge that the motion is at over the whole step, as far as rounding tells: as what has come to rest there, or moves along it.
     pub(super) fn stays_at_edge(&self, guard: Guard, curve: &[f64]) -> bool {
         // Coefficients of an interpolation may be large and cancel.
         let mut sizes = (0..=PLACES).map(|k| value(curve, k as f64 / PLACES as f64).abs());
         let polynomials = &self.locator.polynomials;
-        let vanishes = |size| size <= polynomials.rounding(size, guard, &self.dynamics);
+        let resolved = rounding::<T>(OF_STEP) * self.stepper.step.extent();
+        let vanishes = |size| {
+            size <= polynomials
+                .rounding(size, guard, &self.dynamics)
+                .max(resolved)
+        };
         matches!(guard, Guard::Region(_)) && sizes.all(vanishes)
     }
 

@@ -1,7 +1,7 @@
 //! Whether one candidate mode is feasible: its guards at the instant and, of those that vanish, just after it.
 
 use super::Decider;
-use super::just_after::{AHEAD, terms};
+use super::just_after::{AHEAD, terms, unclear_part};
 use super::questions::{blame, concerns, leading, list_questions};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{AT_REST, Dynamics, EvaluationError, OutputMask};
@@ -236,7 +236,8 @@ impl<T: Scalar> Decider<T> {
             let size = sizes.of(Guard::NormalForceSign(f), dynamics);
             1e3 * here.blur() * size
         };
-        redundant.press_as_forces_begin(composites, dynamics, reach, nothing);
+        let unclear = unclear_part(here.moment.tolerance);
+        redundant.press_as_forces_begin(composites, dynamics, reach, unclear, nothing);
     }
 
     /// Whether undetermined forces keep all bounds a little later as well, where their rows change: how they can share a load is then another

@@ -260,11 +260,14 @@ impl<T: Scalar> Decider<T> {
             let known = terms(series.iter().copied(), part).fold(0.0, f64::max) / size;
             ((100.0 * tolerance).clamp(1e-11, 1e-3) * known, here.blur())
         } else {
-            let instant = INSTANT * tolerance;
-            (instant.max(1e-13), instant.max(1e-14))
+            (unclear_part(tolerance), (INSTANT * tolerance).max(1e-14))
         };
         let cancelling = match guard {
             Guard::Branch(b) if here.facts.held[b] => self.size_as_of_rows(size, ahead, h),
+            Guard::StickCone(f) => {
+                let grown = self.sizes.of_cone(f, size.sqrt(), dynamics);
+                self.size(guard, dynamics).max(grown)
+            }
             _ => self.size(guard, dynamics) * unit_of_order(guard, h),
         };
         let noise = (relative * size).max(absolute * cancelling);
@@ -308,6 +311,11 @@ impl<T: Scalar> Decider<T> {
         });
         sizes.fold(0.0, f64::max)
     }
+}
+
+/// What is less than this part of what it changes by is nothing, as far as the instant is known by a run of this tolerance.
+pub(super) fn unclear_part(tolerance: f64) -> f64 {
+    (INSTANT * tolerance).max(1e-13)
 }
 
 /// The sizes of the terms of a series after some time.

@@ -452,7 +452,8 @@ impl<T: Scalar> Decider<T> {
         let reading = Reading::Values(dynamics);
         let relative = |&guard: &Guard| {
             let value = guard::value(guard, mode, &reading);
-            self.sizes.share(guard, value, dynamics)
+            let size = self.sizes.of(guard, dynamics);
+            value.abs() / size.max(f64::MIN_POSITIVE)
         };
         forces.map(relative).fold(0.0, f64::max)
     }

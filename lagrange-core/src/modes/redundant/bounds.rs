@@ -163,12 +163,13 @@ impl<T: Scalar> RedundantForces<T> {
 
     /// Turns the planes that touch cones of frictions on constraints whose force vanishes at the instant, here and in `composites`: |λ| presses as λ begins.
     /// `dynamics` holds the series of the instant, which are good for a time of `reach`; `nothing` says below which size the force that presses a
-    /// friction is zero.
+    /// friction is zero, and `unclear` below which part of what it changes by within the reach.
     pub fn press_as_forces_begin(
         &mut self,
         composites: &mut [CompositeGuard],
         dynamics: &Dynamics<T>,
         reach: f64,
+        unclear: f64,
         nothing: impl Fn(usize) -> f64,
     ) {
         let d = dynamics.description();
@@ -187,8 +188,10 @@ impl<T: Scalar> RedundantForces<T> {
             let force = |k: usize| series.iter().map(move |series| series[k].value());
             let size = |k: usize| force(k).fold(0.0, f64::hypot);
             let orders = 0..series.iter().map(|series| series.len()).min().unwrap_or(0);
-            let begins = |k: &usize| size(*k) * reach.powi(*k as i32) > nothing(f);
-            let Some(k @ 1..) = orders.clone().find(begins) else {
+            let part = |k: usize| size(k) * reach.powi(k as i32);
+            let largest = orders.clone().map(part).fold(0.0, f64::max);
+            let zero = nothing(f).max(unclear * largest);
+            let Some(k @ 1..) = orders.into_iter().find(|&k| part(k) > zero) else {
                 continue;
             };
             let directions = bound.pressing.iter_mut().zip(force(k));

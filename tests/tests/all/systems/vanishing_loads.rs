@@ -120,14 +120,14 @@ fn a_jammed_drawer_stays_jammed_while_its_load_turns() {
     }
 }
 
-/// A load that only touches zero, once in each turn.
+/// A load that only touches zero, once in each turn, held by one friction or by two that share it.
 #[test]
 fn a_bead_whose_load_touches_zero_inside_the_cone_stays() {
     let mut random = Random::new(567);
     for case in 0..24 {
         let mu = random.between(0.2, 0.8);
         let size = random.between(5.0, 30.0);
-        let guide = Guide {
+        let alone = Guide {
             slope: mu * [0.0, 0.5, 0.9, -0.97][case % 4],
             size,
             rate: [1.0, 2.0, 3.0, random.between(0.5, 4.0)][case / 6],
@@ -135,17 +135,74 @@ fn a_bead_whose_load_touches_zero_inside_the_cone_stays() {
             mu,
             share: [1.0, 0.6][case / 2 % 2],
         };
-        for tolerance in [1e-9, 1e-12] {
-            let effects = Effects::all().without(Guide::HALF);
-            let simulation = Simulation::new(&guide)
+        let together = Guide {
+            mu: 0.5 * mu,
+            ..alone
+        };
+        let one = || Effects::all().without(Guide::HALF);
+        for (guide, effects, asked) in [
+            (&alone, one(), ("auto", 1e-9)),
+            (&alone, one(), ("auto", 1e-12)),
+            (&alone, one(), ("dop853", 1e-9)),
+            (&together, Effects::all(), ("auto", 1e-6)),
+            (&together, Effects::all(), ("auto", 1e-9)),
+            (&together, Effects::all(), ("auto", 1e-12)),
+        ] {
+            let simulation = Simulation::new(guide)
                 .effects(effects)
-                .tolerance(tolerance);
+                .method(asked.0.parse().expect("a method"))
+                .tolerance(asked.1);
             let run = simulation.run(state(&[0.0; 2], &[0.0; 2]), 0.0..10.0);
             let run = run.expect("a run");
-            let what = format!("{guide:?} at {tolerance:e}");
+            let what = format!("{guide:?} by {asked:?}");
             assert!(words(&run).is_empty(), "{what}: {:?}", words(&run));
             agree(&what, run.final_state().q[0], 0.0, 1e-12);
             certified(&what, &run);
+        }
+    }
+}
+
+/// Two pads that share a load which falls to zero and grows again at once.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    define(load = size * abs(rate * t - 1)),
+    force(push: (slope * load, load) at (x, y)),
+    constraint(guide: y == 0),
+    friction(near on guide: slip = der(x), static = share * mu, kinetic = 0.6 * share * mu),
+    friction(far on guide: slip = der(x), static = (1 - share) * mu, kinetic = 0.6 * (1 - share) * mu),
+)]
+struct Pads {
+    size: f64,
+    rate: f64,
+    slope: f64,
+    mu: f64,
+    share: f64,
+}
+
+/// Where the load turns, at an instant that no number is, it is rounding: it presses as it begins anew.
+#[test]
+fn pads_hold_where_their_load_begins_anew() {
+    let mut random = Random::new(35);
+    for rate in [1.0, 3.0, 5.0, 6.0, 7.0, 9.0, 11.0, 13.0] {
+        for part in [0.0, 0.5, 0.9, -0.98] {
+            let mu = random.between(0.2, 0.8);
+            let pads = Pads {
+                size: random.between(1.0, 20.0),
+                rate,
+                slope: part * mu,
+                mu,
+                share: random.between(0.1, 0.9),
+            };
+            for asked in [("auto", 1e-9), ("auto", 1e-12), ("dop853", 1e-9)] {
+                let run = run_by(&pads, asked, state(&[0.0; 2], &[0.0; 2]), 4.0);
+                let what = format!("{pads:?} by {asked:?}");
+                agree(&what, run.final_state().q[0], 0.0, 1e-12);
+                let slips = words(&run).iter().any(|word| word.contains("slips"));
+                assert!(!slips, "{what}: {:?}", words(&run));
+                certified(&what, &run);
+            }
         }
     }
 }
