@@ -71,9 +71,11 @@ impl<T: Scalar> Run<T> {
         let is_near = |c: usize| near.contains(&c);
         let of_impacts = |guard: Guard| match guard {
             Guard::Gap(c) | Guard::Normal(c) => is_near(c),
-            Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) | Guard::Slip(f) => {
+            Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) => {
                 d.frictions[f].normal.presses(is_near)
             }
+            // What rubs by a force of its own comes to rest by itself.
+            Guard::Slip(f) => near.iter().any(|&c| d.frictions[f].normal.is_of(c)),
             // How forces are shared is no event.
             Guard::Composite(_) | Guard::NormalForceSign(_) => true,
             Guard::Region(_) | Guard::Branch(_) | Guard::Stop(..) | Guard::Mark(..) => false,

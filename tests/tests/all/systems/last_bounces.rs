@@ -588,3 +588,41 @@ fn bounces_between_which_a_friction_turns_come_to_an_end() {
         }
     }
 }
+
+/// A ball that bounces to rest beside a block that only a brake slows down.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = 10 * y,
+    contact(floor: y >= 0, restitution = 0.5),
+    friction(brake: slip = der(x), limit = limit),
+)]
+struct Beside {
+    limit: f64,
+}
+
+/// The block stops shortly before the ball lies, at 0.6 s, in the time of the impacts that are not followed: it stays where it is.
+#[test]
+fn what_a_brake_stops_among_the_last_bounces_is_not_pushed_back() {
+    for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+        for (limit, before) in [
+            (1.0, 1e-5),
+            (1e3, 1e-5),
+            (1e3, 1e-7),
+            (1e5, 1e-6),
+            (30.0, 3e-8),
+        ] {
+            let scene = Beside { limit };
+            let stops = 0.6 - before;
+            let start = state(&[0.0, 0.2], &[limit * stops, 0.0]);
+            let motion = run_by(&scene, (method, tolerance), start, 0.7);
+            let what = format!("{scene:?}, {before:e} before, by {method} at {tolerance:e}");
+            assert_eq!(motion.final_state().v[0], 0.0, "{what}");
+            let rests = event(&motion, "brake", "sticks").time;
+            agree(&what, rests, stops, 10.0 * tolerance);
+            assert!(times(&motion, "brake", "reverses").is_empty(), "{what}");
+            certified(&what, &motion);
+        }
+    }
+}
