@@ -255,7 +255,8 @@ impl<T: Scalar> Run<T> {
         }
     }
 
-    pub(super) fn log_marks(&mut self, end: f64) {
+    /// Writes down the marks up to part `end` of the step, none of them after what ends it at part `last`, whatever rounding makes of their instants.
+    pub(super) fn log_marks(&mut self, end: f64, last: f64) {
         if self.locator.polynomials.marks.is_empty() {
             return;
         }
@@ -263,7 +264,7 @@ impl<T: Scalar> Run<T> {
         self.marks_until(end, &mut marks);
         let resolution = self.resolution_of_time() * self.stepper.step.h.value();
         for &(mark, s) in &marks {
-            let s = self.sharpened_mark(mark, s);
+            let s = self.sharpened_mark(mark, s).min(last);
             let s = self.exact_mark(mark, s);
             let time = self.stepper.step.time(s);
             // Where a guard jumps steps are as short as time resolves, and rounding may put a term back to the side from which it has come; each of both

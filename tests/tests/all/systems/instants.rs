@@ -3,7 +3,8 @@
 use super::{PI, state};
 use lagrange_core::prelude::*;
 use lagrange_tests::{
-    METHODS, Random, TOLERANCES, agree, all_agree, methods_at, root, run, run_by, times, words,
+    METHODS, Random, TOLERANCES, agree, all_agree, certified, methods_at, root, run, run_by, times,
+    words,
 };
 
 /// A ball between floor and ceiling.
@@ -405,5 +406,63 @@ fn zeros_of_guards_are_exact_where_the_motion_is_simpler() {
                 assert!(gap.abs() < 1e-12, "{what}: {gap}");
             }
         }
+    }
+}
+
+/// A ball that bounces and is looked at where it meets the floor.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = gravity * y,
+    contact(floor: y >= 0, restitution = bounce),
+    mark(place: x - fall * speed),
+    mark(low: y),
+    mark(instant: t >= fall),
+)]
+struct Looked {
+    gravity: f64,
+    bounce: f64,
+    fall: f64,
+    speed: f64,
+}
+
+/// Marks that coincide with an impact are told before it, whichever of all their roots rounding puts first, and the motion goes on as it would.
+#[test]
+fn marks_at_an_impact_change_nothing() {
+    let mut random = Random::new(161);
+    for case in 0..60 {
+        let tenths = |x: f64| match case % 2 {
+            0 => (10.0 * x).round() / 10.0,
+            _ => x,
+        };
+        let looked = Looked {
+            gravity: tenths(random.between(1.0, 20.0)),
+            bounce: tenths(random.between(0.2, 0.9)),
+            fall: tenths(random.between(0.3, 1.5)),
+            speed: tenths(random.between(0.5, 3.0)),
+        };
+        let Looked {
+            gravity,
+            bounce,
+            fall,
+            speed,
+        } = looked;
+        let start = state(&[0.0, 0.5 * gravity * fall * fall], &[speed, 0.0]);
+        let later = 0.5 * bounce * fall;
+        let motion = run(&looked, start, fall + later);
+        let what = format!("{looked:?}");
+        certified(&what, &motion);
+        let up = gravity * later * (fall * bounce - 0.5 * later);
+        all_agree(
+            &what,
+            &motion.final_state().q,
+            &[speed * (fall + later), up],
+            1e-9 * (1.0 + gravity),
+        );
+        let mut told = words(&motion);
+        assert_eq!(told.pop().as_deref(), Some("floor impact"), "{what}");
+        told.sort();
+        assert_eq!(told, ["instant mark", "low mark", "place mark"], "{what}");
     }
 }
