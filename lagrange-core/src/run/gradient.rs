@@ -1,7 +1,7 @@
 //! Gaps without a gradient where they are zero: in which direction they change is not told by positions that have errors.
 
 use super::Run;
-use crate::arithmetic::{Scalar, rounding};
+use crate::arithmetic::{GOLDEN, Scalar, rounding, uneven};
 
 /// A gap whose rate is larger than this beside the velocities has a gradient.
 const STEEP: f64 = 1e-2;
@@ -53,8 +53,8 @@ impl<T: Scalar> Run<T> {
         let moved = |j: usize, _| {
             T::from_f64(match ends {
                 false => -far * gradient[j] / slope,
-                true if j % 2 == 1 => -farthest,
-                true => farthest,
+                // Neither sums nor differences of coordinates stay as they are.
+                true => farthest * uneven(j, GOLDEN),
             })
         };
         self.beside(None, T::zero(), moved, |run| {

@@ -225,3 +225,44 @@ fn rounding_of_a_gap_without_a_slope_is_no_penetration() {
         certified(format!("{leg:?}"), &run.expect("a run"));
     }
 }
+
+/// Two rods, the lower one told by its angle to the upper one, whose end hangs down to a floor.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(hip, knee),
+    kinetic = mass/2 * (der(sin(hip) + length * sin(hip + knee))^2 + der(cos(hip) + length * cos(hip + knee))^2) + der(hip)^2/2,
+    potential = -10 * cos(hip) - 10 * mass * (cos(hip) + length * cos(hip + knee)),
+    force(turn: hip = push),
+    contact(shin: 1 - cos(hip + knee) >= 0),
+    contact(thigh: 1 - cos(hip - knee) >= 0),
+)]
+struct Jointed {
+    mass: f64,
+    length: f64,
+    push: f64,
+}
+
+/// A gap of a sum or a difference of angles has no more of a direction than that of one angle.
+#[test]
+fn what_hangs_by_joints_swings_off() {
+    for (mass, length, push) in [(1.0, 1.0, 2.0), (0.5, 0.7, -3.0), (3.0, 1.2, 1.0)] {
+        let leg = Jointed { mass, length, push };
+        for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-9, 1e-12]) {
+            let start = || state(&[0.0; 2], &[0.0; 2]);
+            let simulation = Simulation::new(&leg).method(method).tolerance(tolerance);
+            let neither = Effects::all()
+                .without(Jointed::SHIN)
+                .without(Jointed::THIGH);
+            let free = simulation.effects(neither).run(start(), 0.0..0.5);
+            let free = free.expect("a run");
+            let run = run_by(&leg, (method, tolerance), start(), 0.5);
+            let what = format!("{leg:?} by {method} at {tolerance:e}");
+            all_agree(
+                what,
+                &run.final_state().q,
+                &free.final_state().q,
+                20.0 * tolerance,
+            );
+        }
+    }
+}
