@@ -20,6 +20,7 @@ impl<T: Scalar> Dynamics<T> {
     pub fn value(&mut self, t: T, q: &[T], v: &[T]) -> Result<(), EvaluationError> {
         // What the interpreter leaves beside the value is made anew.
         if self.given && self.functions().is_some() && self.is_at(t, q, v) {
+            self.by_functions = true;
             return Ok(());
         }
         self.work.values += 1;

@@ -76,8 +76,12 @@ pub(super) struct Before<T> {
 impl<T: Scalar> Run<T> {
     pub(super) fn log_impacts(&mut self, outcome: &Impact<T>, facts: &SwitchFacts) {
         let before = &self.recorder.before;
+        let contacts = 0..self.description().contacts.len();
+        let struck = contacts.clone().any(|c| outcome.struck[c]);
         let hit = |c: &usize| facts.arriving[*c] && outcome.struck[*c];
-        for c in (0..self.description().contacts.len()).filter(hit) {
+        // What is held may have the whole impulse, and its friction push away what arrives.
+        let by_held = struck && !contacts.clone().any(|c| hit(&c));
+        for c in contacts.filter(|c| hit(c) || by_held && facts.arriving[*c]) {
             let d = self.description();
             let event = self.recorder.trajectory.events.reuse(|| Event::blank(d));
             let around = Around {

@@ -1,6 +1,7 @@
 //! A step by another method than Taylor's, whose guards are known by samples.
 
 use super::hit::Hit;
+use super::taylor_step::ASTRAY;
 use super::{Progress, Run};
 use crate::arithmetic::Scalar;
 use crate::error::Error;
@@ -25,6 +26,9 @@ const SHARE: f64 = 0.5;
 
 /// Careful steps grow by this factor at most, where methods have 5 to 10.
 const GROWTH: f64 = 1.5;
+
+/// Up to this order series tell how forces change in a step of a stiff method; terms of higher ones are those of fast motions that have died out.
+const STIFF_ORDER: usize = 5;
 
 /// Steps of so many times the resolution of time are left to Taylor series.
 const KINK: f64 = 1e4;
@@ -61,6 +65,11 @@ impl<T: Scalar> Run<T> {
             false => first,
         };
         let shown = self.longest_of_slips(first, stiff);
+        // Explicit steps that stability bounds leave of a slip whose direction is stiff errors of the size that is allowed, and friction along them does not bring
+        // it to rest where it is hardly more than what drives it. Those of Taylor series are smaller in steps that are hardly shorter.
+        if self.stepper.astray > ASTRAY && !stiff {
+            return self.taylor_step();
+        }
         // Where a slip is about to vanish its direction may follow the forces faster than Taylor series can.
         if shown < first && !(stiff && shown > KINK * self.resolution(first)) {
             return self.taylor_step();
@@ -68,7 +77,12 @@ impl<T: Scalar> Run<T> {
         let mut h = self.whole_step(shown, longest).min(longest);
         h = h.min(self.longest_at_rest());
         if self.switcher.redundant.has_open() && self.expand().is_ok() {
-            h = h.min(self.longest_of_shared_loads(self.stepper.order));
+            let order = if stiff {
+                STIFF_ORDER
+            } else {
+                self.stepper.order
+            };
+            h = h.min(self.longest_of_shared_loads(order));
         }
         let shortest = KINK * self.resolution(h);
         let (mut tries, mut shortened) = (0, 0);

@@ -40,7 +40,7 @@ const ULPS: f64 = 16.0;
 pub(super) const SHARPENED: f64 = 1e-3;
 
 /// Steps are shorter where directions of slips are off by more than this share.
-const ASTRAY: f64 = 1e-2;
+pub(super) const ASTRAY: f64 = 1e-2;
 
 /// Steps are shorter by this factor there: their errors are then some hundredth of those allowed.
 const MORE_EXACTLY: f64 = 0.75;

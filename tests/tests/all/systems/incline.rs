@@ -222,3 +222,17 @@ fn all_methods_come_to_rest() {
         );
     }
 }
+
+/// Errors of the direction, as large as the tolerance, must not hold up a slip that friction hardly ends.
+#[test]
+fn friction_that_is_hardly_enough_ends_the_slip_by_all_methods() {
+    let (ratio, speed) = (1.0003, 0.3);
+    let [time, ..] = way(ratio, speed, 1.0, 0.0);
+    for method in ["auto", "dop853", "verner98", "dopri5"] {
+        let start = state(&[0.0; 3], &[speed, 0.0, 0.0]);
+        let trajectory = run_by(&block(ratio), (method, 1e-9), start, 1.1 * time);
+        assert_eq!(words(&trajectory), ["grip sticks"], "{method}");
+        let rest = event(&trajectory, "grip", "sticks");
+        agree(method, rest.time, time, 1e-6);
+    }
+}

@@ -143,3 +143,31 @@ fn only_one_scene_of_the_catalogue_is_stiff() {
         }
     }
 }
+
+/// A motor on a stiff coupler pushes a carriage that a stop and friction hold together: nothing tells how they share the load.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(motor, carriage),
+    kinetic = der(motor)^2 / 2 + der(carriage)^2,
+    potential(coupler: stiffness/2 * (motor - carriage)^2),
+    dissipation(coupler_damper: stiffness/200 * (der(motor) - der(carriage))^2),
+    force(drive: motor = 5 + sin(t)),
+    contact(end: carriage <= 0),
+    friction(rail: slip = der(carriage), limit = 2),
+)]
+struct Pushed {
+    stiffness: f64,
+}
+
+#[test]
+fn a_stiff_coupler_at_rest_under_a_shared_load_takes_long_steps() {
+    let start = || state(&[0.0; 2], &[0.0; 2]);
+    let of = |stiffness: f64| {
+        let outcome = Simulation::new(&Pushed { stiffness }).run(start(), 0.0..3.0);
+        let trajectory = outcome.expect("a run");
+        certified(stiffness, &trajectory);
+        trajectory.work().steps
+    };
+    let steps = [1e5, 1e6, 1e7].map(of);
+    assert!(steps.iter().all(|steps| *steps < 1500), "{steps:?}");
+}
