@@ -46,6 +46,8 @@ struct GuardPolynomial {
 pub(super) struct GuardPolynomials {
     /// Stops, marks, guards of the mode.
     list: Vec<GuardPolynomial>,
+    /// Those that were watched before.
+    before: Vec<GuardPolynomial>,
     /// Guards of undetermined forces that have been met in this mode.
     pub(super) composites: Vec<CompositeGuard>,
     /// Per branch: whether the mode holds it at its border, where its guard is rounding and is not watched.
@@ -130,7 +132,8 @@ impl GuardPolynomials {
         self.held.clear();
     }
 
-    /// Watches these guards of single forces in a mode, and the composite ones, from now on.
+    /// Watches these guards of single forces in a mode, and the composite ones, from now on. Positions do not jump: what an open gap may fall below zero by, it
+    /// still may.
     pub(super) fn arm<T: Scalar>(
         &mut self,
         guards: impl Iterator<Item = Guard>,
@@ -142,6 +145,9 @@ impl GuardPolynomials {
         let held = &self.held;
         let moves =
             |guard: &Guard| !matches!(*guard, Guard::Branch(b) if held.get(b) == Some(&true));
+        core::mem::swap(&mut self.list, &mut self.before);
+        let before = &self.before;
+        let known = |guard| before.iter().find(|known| known.guard == guard);
         let curves = watches
             .chain(guards.filter(moves))
             .chain(composites)
@@ -150,7 +156,10 @@ impl GuardPolynomials {
                 linear: Linear::of(guard, mode, dynamics),
                 sums: Sums::UNKNOWN,
                 stays: false,
-                margin: 0.0,
+                margin: match guard {
+                    Guard::Gap(_) => known(guard).map_or(0.0, |known| known.margin),
+                    _ => 0.0,
+                },
             });
         self.list.clear();
         self.list.extend(curves);

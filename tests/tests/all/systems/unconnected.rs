@@ -191,3 +191,52 @@ fn boxes_begin_to_slide_one_by_one() {
         }
     }
 }
+
+/// Two bobs on rods that just touch a floor each as they swing through.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x[2], y[2]),
+    kinetic = sum(k in 0..2: (der(x[k])^2 + der(y[k])^2)/2),
+    potential = sum(k in 0..2: gravity*y[k]),
+    constraint(rod[k in 0..2]: x[k]^2 + y[k]^2 == length^2),
+    contact(floor[k in 0..2]: y[k] >= -length, restitution = bounce),
+)]
+struct Bobs {
+    gravity: f64,
+    length: f64,
+    bounce: f64,
+}
+
+/// What has just touched its floor goes on touching it when the other one comes to its own within rounding: each swings as without floors, by the energy that it
+/// has.
+#[test]
+fn bobs_that_touch_their_floors_almost_at_once_swing_on() {
+    for (length, angle, apart, bounce) in [
+        (1.3, 0.7, 1e-9, 0.0),
+        (0.8, -0.5, 1e-8, 0.6),
+        (1.0, 1.1, -1e-7, 0.3),
+        (2.1, 0.9, 1e-6, 0.8),
+    ] {
+        let bobs = Bobs {
+            gravity: 9.81,
+            length,
+            bounce,
+        };
+        let angles = [angle, angle + apart];
+        let at = |of: fn(f64) -> f64| angles.map(|angle: f64| length * of(angle));
+        let (x, y) = (at(f64::sin), at(f64::cos));
+        let q = [x[0], x[1], -y[0], -y[1]];
+        for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+            let what = format!("{bobs:?} {angle} {apart:e} by {method} at {tolerance:e}");
+            let motion = run_by(&bobs, (method, tolerance), state(&q, &[0.0; 4]), 4.0);
+            assert!(motion.events().is_empty(), "{what}");
+            let State { q, v, .. } = motion.final_state();
+            for k in 0..2 {
+                let kinetic = (v[k] * v[k] + v[k + 2] * v[k + 2]) / 2.0;
+                let energy = kinetic + bobs.gravity * (q[k + 2] + y[k]);
+                agree(&what, energy, 0.0, 1e3 * tolerance);
+            }
+            certified(&what, &motion);
+        }
+    }
+}
