@@ -1,5 +1,5 @@
 //! Gaps that a polynomial takes below zero and that are not: those of distances, which have no direction where they vanish, and of surfaces that
-//! come to a body without speed.
+//! come to a body without speed. So are edges at which a brake brings a body to rest.
 
 use super::Run;
 use super::hit::Hit;
@@ -14,8 +14,8 @@ use crate::trajectory::State;
 const BEYOND: f64 = 10.0;
 
 impl<T: Scalar> Run<T> {
-    /// Lets gaps that the step at hand hits fall as far below zero as their polynomials do, where these turn before they have fallen by more than the
-    /// tolerance, and the gaps themselves vanish there at most, as far as rounding tells; whether there are such. The motion is known up to part
+    /// Lets gaps and edges that the step at hand hits fall as far below zero as their polynomials do, where these turn before they have fallen by more than the
+    /// tolerance, and these themselves vanish there at most, as far as rounding tells; whether there are such. The motion is known up to part
     /// `known` of the step. Cones of friction too, where [load and force vanish together](super::vanishing_loads).
     ///
     /// What rises to a body and comes to rest where it meets it would be hit a little before, by the root of the error of its series: at a speed that
@@ -30,8 +30,12 @@ impl<T: Scalar> Run<T> {
             let margin = match guard {
                 Guard::Gap(contact) => {
                     let extent = self.locator.polynomials.extents[contact];
-                    let depth = self.depth_of_touch(contact, end, known);
+                    let depth = self.depth_of_touch(guard, extent, end, known);
                     depth.map(|depth| 2.0 * depth / extent)
+                }
+                Guard::Region(contact) if self.now.mode.contacts[contact] => {
+                    let depth = self.depth_of_touch(guard, 1.0, end, known);
+                    depth.map(|depth| 2.0 * depth)
                 }
                 Guard::StickCone(_) | Guard::Composite(_) => {
                     let depth = self.depth_where_loads_vanish(guard, end, known);
@@ -47,20 +51,25 @@ impl<T: Scalar> Run<T> {
         passes
     }
 
-    /// How far the polynomial of the gap of a contact falls below zero behind its root at part `end` of the step, if the gap only touches it.
-    fn depth_of_touch(&mut self, contact: usize, end: f64, known: f64) -> Option<f64> {
-        let guard = Guard::Gap(contact);
+    /// How far the polynomial of a gap or an edge, of this extent, falls below zero behind its root at part `end` of the step, if that only touches zero.
+    fn depth_of_touch(&mut self, guard: Guard, extent: f64, end: f64, known: f64) -> Option<f64> {
         let curves = &self.locator.polynomials;
         let index = curves.index_of(guard)?;
         let (_, curve) = curves.get(index)?;
-        let least = self.settings.tolerance.max(1e-13) * curves.extents[contact];
+        let least = self.settings.tolerance.max(1e-13) * extent;
         let (turn, depth) = dip(curve, end, BEYOND * least)?;
         if turn > known || curves.is_lowered(guard) {
             return None;
         }
-        let gap = self.gap_at(index, turn);
-        let off = self.largest_gap(|c| self.now.mode.contacts[c]);
-        (-gap <= self.rounding_of_gap(contact).max(LEVER * off)).then_some(depth)
+        let value = self.value_at(index, turn);
+        let rounding = match guard {
+            Guard::Gap(contact) => {
+                let off = self.largest_gap(|c| self.now.mode.contacts[c]);
+                self.rounding_of_gap(contact).max(LEVER * off)
+            }
+            _ => (self.locator.polynomials).rounding(value.abs(), guard, &self.dynamics),
+        };
+        (-value <= rounding).then_some(depth)
     }
 
     /// The contact that is hit by its polynomial but whose gap rises beyond, as far as the motion is known there, up to part `known` of the
@@ -83,7 +92,7 @@ impl<T: Scalar> Run<T> {
             let size = q.fold(extent, |size, q| size.max(q.value().abs()));
             let depth = BEYOND * self.settings.tolerance.max(1e-13) * size;
             let turns = self.turns_beyond(index, end, depth, known) && {
-                let deeper = BEYOND * self.gap_at(index, end).abs();
+                let deeper = BEYOND * self.value_at(index, end).abs();
                 deeper <= depth || self.turns_beyond(index, end, deeper, known)
             };
             if turns {
@@ -104,13 +113,13 @@ impl<T: Scalar> Run<T> {
         if beyond > known || fallen > -0.5 * depth {
             return false;
         }
-        let gap = self.gap_at(index, beyond);
+        let gap = self.value_at(index, beyond);
         // A distance is then what its polynomial is, of the other sign; where the series of a gap has stopped converging it is something else.
         gap > 0.5 * depth && (gap + fallen).abs() < 0.5 * depth
     }
 
-    /// The gap that guard number `index` watches, as declared, at part `s` of the step.
-    fn gap_at(&mut self, index: usize, s: f64) -> f64 {
+    /// Guard number `index`, as declared, at part `s` of the step.
+    fn value_at(&mut self, index: usize, s: f64) -> f64 {
         self.state_at_end(s);
         let State { q, v, .. } = &self.stepper.scratch;
         self.dynamics

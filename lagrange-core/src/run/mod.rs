@@ -4,6 +4,7 @@ mod accumulation;
 mod acting;
 mod adjoining;
 mod advance;
+mod at_edge;
 mod cause;
 mod corners;
 mod dead_centre;

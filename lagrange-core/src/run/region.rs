@@ -169,6 +169,8 @@ impl<T: Scalar> Run<T> {
                 && (!hit || self.goes_out(c))
             {
                 facts.touching[c] = false;
+                // What goes out by its acceleration alone does not come back onto the surface where it is at the edge still.
+                self.now.below[c] = true;
             }
         }
         self.locator.fallen = fallen;

@@ -201,6 +201,9 @@ impl<T: Scalar> Run<T> {
     fn settle_knowing(&mut self, facts: &mut SwitchFacts) -> Result<(), Error> {
         let hit = self.meet(facts)?;
         self.decide(facts)?;
+        while self.leave_edges(facts) {
+            self.decide(facts)?;
+        }
         self.locator
             .zeros
             .clone_from(&self.switcher.decider.decision.zeros);

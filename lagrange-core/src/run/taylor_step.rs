@@ -87,7 +87,9 @@ impl<T: Scalar> Run<T> {
             };
             let end = hit.end();
             if end == 0.0 {
-                if self.corrects_composites_at_start(&hit, &mut corrections) {
+                if self.corrects_composites_at_start(&hit, &mut corrections)
+                    || self.is_at_edge() && self.passes_over_touches(&hit, moves / h)
+                {
                     continue;
                 }
                 match hit {

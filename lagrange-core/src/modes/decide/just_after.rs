@@ -319,7 +319,7 @@ pub(super) fn unclear_part(tolerance: f64) -> f64 {
 }
 
 /// The sizes of the terms of a series after some time.
-pub(super) fn terms(series: impl Iterator<Item = f64>, time: f64) -> impl Iterator<Item = f64> {
+pub fn terms(series: impl Iterator<Item = f64>, time: f64) -> impl Iterator<Item = f64> {
     let powers = core::iter::successors(Some(1.0), move |power| Some(power * time));
     series.zip(powers).map(|(c, power)| (c * power).abs())
 }

@@ -18,6 +18,8 @@ mod pivot;
 mod questions;
 mod together;
 
+pub use just_after::terms;
+
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
 use crate::effects::Item;
@@ -438,6 +440,14 @@ impl<T: Scalar> Decider<T> {
     pub fn take_sizes(&mut self, dynamics: &Dynamics<T>) {
         self.sizes.take(dynamics);
         self.sized = true;
+    }
+
+    /// The size of accelerations where forces do not cancel, the largest of all coordinates; `dynamics` holds the numbers of all rows at the present state.
+    pub fn size_of_accelerations(&mut self, dynamics: &Dynamics<T>) -> f64 {
+        self.take_sizes(dynamics);
+        let coordinates = 0..dynamics.description().coordinates.len();
+        let sizes = coordinates.map(|j| self.sizes.of_coordinate(j));
+        sizes.fold(0.0, f64::max)
     }
 
     /// See [`SwitchFacts::residue`]; `dynamics` holds the values of the moment in the mode that ends.
