@@ -216,8 +216,7 @@ impl Equations {
                     Level::Velocity => 1,
                 };
                 for power in 0..levels {
-                    let error = self.values.coefficient(value, power).abs();
-                    let reach = self.reach(value, power, at);
+                    let (error, reach) = self.residual(value, power, at);
                     let name = d.constraints[i].name;
                     findings.book(Subject::Constraints, error, reach, at.time, name);
                 }

@@ -28,7 +28,7 @@ impl<T: Scalar> Examination<'_, T> {
             return;
         }
         self.enter(before);
-        if self.accelerate(before, before.end).is_err() {
+        if self.accelerate(before, before.end, false).is_err() {
             return;
         }
         // The direction of what is left of a slip follows the forces at once: a step of the linearly implicit method of Euler.

@@ -321,7 +321,12 @@ impl<'a, T: Scalar> Examination<'a, T> {
             let turns = self.record.modes[segment.mode].has_turning_slip();
             match turns && segment.degree != Radau::<T>::DEGREE {
                 true => self.follow(segment)?,
-                false => self.integrate(segment)?,
+                false => {
+                    self.integrate(segment)?;
+                    if !self.errors_are_small() && segment.degree != Radau::<T>::DEGREE {
+                        self.discount_rounding(segment)?;
+                    }
+                }
             }
         }
         // The error of a step is a mean over its components, one of which may have all of it.

@@ -206,9 +206,29 @@ impl Equations {
     /// How much a value changes when each position and velocity x changes by 1 + |x|, or by more where its absolute tolerance says so: the
     /// residuals of constraints and gaps are not asked for in finer units.
     pub fn reach(&mut self, value: usize, power: usize, at: Situation<'_>) -> f64 {
-        self.values
-            .gradient_size(value, power, &mut self.sizes_along);
-        change(&self.sizes_along, &self.sizes, [at.q, at.v])
+        self.reach_with_rounding(value, power, at).0
+    }
+
+    /// By how much a coefficient of a value is off that vanishes, and its [`Self::reach`]. Where constraints are about to lose rank the reach is small, and
+    /// rounding of the terms says nothing.
+    pub fn residual(&mut self, value: usize, power: usize, at: Situation<'_>) -> (f64, f64) {
+        let (reach, rounding) = self.reach_with_rounding(value, power, at);
+        let error = self.values.coefficient(value, power).abs();
+        (
+            if error <= rounding {
+                0.0
+            } else {
+                error - rounding
+            },
+            reach,
+        )
+    }
+
+    fn reach_with_rounding(&mut self, value: usize, power: usize, at: Situation<'_>) -> (f64, f64) {
+        let sizes = &mut self.sizes_along;
+        let terms = self.values.gradient_size(value, power, sizes);
+        let reach = change(sizes, &self.sizes, [at.q, at.v]);
+        (reach, rounding_of(terms))
     }
 
     /// The inertia of each coordinate: its momentum where it moves alone with velocity 1; terms of either sign count alike, so that it is not too

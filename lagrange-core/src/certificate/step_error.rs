@@ -11,21 +11,23 @@
 
 use super::motion::Examination;
 use super::quadrature::{RADAU, gauss};
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, epsilon};
 use crate::error::Error;
 use crate::integrate::{Acceleration, Radau, least_size};
 use crate::trajectory::{Segment, State};
 use nalgebra::{DMatrix, DVector};
 
+/// Positions are known to so many units of rounding.
+const ULPS: f64 = 16.0;
+
 impl<T: Scalar> Examination<'_, T> {
     /// Finds the errors of a step, and what they are measured by, from the defects of its dense output. Whether they are below the tolerance.
     pub(super) fn has_small_defects(&mut self, segment: &Segment<T>) -> Result<bool, Error> {
-        let record = self.record;
         let span = (segment.h * segment.end).value();
         self.start_errors(0.0);
         for (part, weight) in RADAU {
             let s = segment.end * T::from_f64(part);
-            self.accelerate(segment, s)?;
+            self.accelerate(segment, s, false)?;
             for i in 0..self.begin.q.len() {
                 let (dq, dv) = (self.rates.q[i] / segment.h, self.rates.v[i] / segment.h);
                 let defects = [dq - self.scratch.v[i], dv - self.acceleration[i]];
@@ -34,19 +36,25 @@ impl<T: Scalar> Examination<'_, T> {
                 self.errors.v[i] += weight * span * v;
             }
         }
-        let pairs = |errors: &[f64], sizes: &[f64]| {
+        Ok(self.errors_are_small())
+    }
+
+    /// Whether the errors found are below the tolerance.
+    pub(super) fn errors_are_small(&self) -> bool {
+        let small = |errors: &[f64], sizes: &[f64]| {
             let mut pairs = errors.iter().zip(sizes).enumerate();
             pairs.all(|(i, (error, size))| {
-                let least = least_size(&record.asked.sizes, i);
-                *error <= self.findings.tolerance * (least + size)
+                let least = least_size(&self.record.asked.sizes, i);
+                error.abs() <= self.findings.tolerance * (least + size)
             })
         };
-        Ok(pairs(&self.errors.q, &self.sizes.q) && pairs(&self.errors.v, &self.sizes.v))
+        small(&self.errors.q, &self.sizes.q) && small(&self.errors.v, &self.sizes.v)
     }
 
     /// Finds the errors of a step, and what they are measured by, from the integrals of velocities and accelerations.
     pub(super) fn integrate(&mut self, segment: &Segment<T>) -> Result<(), Error> {
-        let points = segment.degree / 2 + 2;
+        // A step over a position where constraints lose rank has it in its middle: no point is there.
+        let points = (segment.degree / 2 + 2).next_multiple_of(2);
         if self.nodes.len() != points {
             self.nodes = gauss(points);
         }
@@ -54,7 +62,7 @@ impl<T: Scalar> Examination<'_, T> {
         self.start_errors(1.0);
         for i in 0..points {
             let (x, w) = self.nodes[i];
-            self.accelerate(segment, T::from_f64(0.5 * end * (1.0 + x)))?;
+            self.accelerate(segment, T::from_f64(0.5 * end * (1.0 + x)), true)?;
             let weight = 0.5 * end * h * w;
             let rates = [
                 (&mut self.errors.q, &self.scratch.v),
@@ -80,7 +88,7 @@ impl<T: Scalar> Examination<'_, T> {
         for (x, w) in nodes {
             let (s, weight) = (0.5 * end * (1.0 + x), 0.5 * end * h * w);
             self.dynamics.set_mode(&self.record.modes[segment.mode]);
-            self.accelerate(segment, T::from_f64(s))?;
+            self.accelerate(segment, T::from_f64(s), false)?;
             for i in 0..self.begin.q.len() {
                 let (dq, dv) = (self.rates.q[i] / segment.h, self.rates.v[i] / segment.h);
                 self.errors.q[i] += weight * (self.scratch.v[i] - dq).value();
@@ -105,7 +113,13 @@ impl<T: Scalar> Examination<'_, T> {
     }
 
     /// State, its derivatives and accelerations at part `s` of a step, by the equations that the run itself evaluates; remembers how large the state is.
-    pub(super) fn accelerate(&mut self, segment: &Segment<T>, s: T) -> Result<(), Error> {
+    /// The state may be moved `onto` the constraints before: near a loss of rank what it is off by, which is looked at for itself, changes accelerations much.
+    pub(super) fn accelerate(
+        &mut self,
+        segment: &Segment<T>,
+        s: T,
+        onto: bool,
+    ) -> Result<(), Error> {
         let State { q, v, .. } = &mut self.scratch;
         let lists = [(&mut *q, &mut self.rates.q), (&mut *v, &mut self.rates.v)];
         for (which, (values, rates)) in lists.into_iter().enumerate() {
@@ -114,8 +128,24 @@ impl<T: Scalar> Examination<'_, T> {
                 (*x, *rate) = with_derivative(c, s);
             }
         }
+        self.accelerate_there(segment, s, onto)?;
+        let State { q, v, .. } = &self.scratch;
+        for (sizes, list) in [(&mut self.sizes.q, q), (&mut self.sizes.v, v)] {
+            let pairs = sizes.iter_mut().zip(list);
+            pairs.for_each(|(size, x)| *size = size.max(x.value().abs()));
+        }
+        Ok(())
+    }
+
+    /// Accelerations at part `s` of a step in the state taken.
+    fn accelerate_there(&mut self, segment: &Segment<T>, s: T, onto: bool) -> Result<(), Error> {
+        let State { q, v, .. } = &mut self.scratch;
         let time = segment.t + segment.h * s;
         let mode = &self.record.modes[segment.mode];
+        if onto {
+            // Where no state nearby satisfies the constraints, that is told by them.
+            _ = self.dynamics.project(time, q, v, 0.0);
+        }
         let outcome = if !mode.has_incipient_slip() {
             Acceleration::acceleration(&mut self.dynamics, time, q, v, &mut self.acceleration)
         } else {
@@ -126,10 +156,35 @@ impl<T: Scalar> Examination<'_, T> {
             outcome
         };
         let d = self.record.description();
-        outcome.map_err(|e| Error::from_evaluation(e, time.value(), mode, d))?;
-        for (sizes, list) in [(&mut self.sizes.q, q), (&mut self.sizes.v, v)] {
-            let pairs = sizes.iter_mut().zip(list);
-            pairs.for_each(|(size, x)| *size = size.max(x.value().abs()));
+        outcome.map_err(|e| Error::from_evaluation(e, time.value(), mode, d))
+    }
+
+    /// Takes from the errors that [`Self::integrate`] has found what rounding of positions makes of the accelerations: much where constraints are about to
+    /// lose rank.
+    pub(super) fn discount_rounding(&mut self, segment: &Segment<T>) -> Result<(), Error> {
+        let (h, end) = (segment.h.value(), segment.end.value());
+        for k in 0..self.nodes.len() {
+            let (x, w) = self.nodes[k];
+            let s = T::from_f64(0.5 * end * (1.0 + x));
+            let weight = 0.5 * end * h * w;
+            self.accelerate(segment, s, true)?;
+            let exact = self.acceleration.clone();
+            let mut blur = vec![0.0_f64; exact.len()];
+            for alternates in [false, true] {
+                let State { q, v, .. } = &mut self.scratch;
+                self.record.state_at(segment, s, q, v);
+                for (j, q) in q.iter_mut().enumerate() {
+                    let sign = if alternates && j % 2 == 1 { -1.0 } else { 1.0 };
+                    *q *= T::from_f64(1.0 + sign * ULPS * epsilon::<T>());
+                }
+                self.accelerate_there(segment, s, true)?;
+                for ((blur, a), exact) in blur.iter_mut().zip(&self.acceleration).zip(&exact) {
+                    *blur = blur.max((*a - *exact).value().abs());
+                }
+            }
+            for (error, blur) in self.errors.v.iter_mut().zip(blur) {
+                *error -= error.clamp(-weight * blur, weight * blur);
+            }
         }
         Ok(())
     }
