@@ -65,6 +65,9 @@ pub(super) fn samples(trajectory: &Trajectory, times: &[f64]) -> Vec<Sample> {
             }
         }
     }
+    if samples.last().is_none_or(|end| end.time < last) {
+        samples.extend(reader.before_the_end(trajectory, phases.len().saturating_sub(1)));
+    }
     if let Some(end) = samples.last_mut().filter(|end| end.time == last) {
         end.state = trajectory.final_state().clone();
     }
@@ -146,6 +149,20 @@ impl<'a> Reader<'a> {
         // A slip in space that begins is under way at once.
         let mode = event.after.under_way();
         Some(self.of_instant(event.time, 0, instant)).filter(|sample| sample.mode == mode)
+    }
+
+    /// The end of a run in a state that leaves forces undetermined, as aligned bars do: those a little before, told as such.
+    fn before_the_end(&mut self, trajectory: &Trajectory, phase: usize) -> Option<Sample> {
+        let last = trajectory.last_time();
+        let begun = trajectory.step_times().last()?;
+        let mut parts = [0.99, 0.9, 0.7, 0.4].into_iter();
+        let mode = trajectory.final_mode().under_way();
+        let mut end = parts.find_map(|part| {
+            let read = begun + part * (last - begun);
+            self.sample(last, read, phase, &mode)
+        })?;
+        end.undetermined.fill(true);
+        Some(end)
     }
 
     /// What is at `read`, as a sample at `time`; nothing if another mode is there.
