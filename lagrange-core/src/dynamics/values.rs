@@ -274,6 +274,12 @@ impl<T: Scalar> Dynamics<T> {
         self.take_nodes();
     }
 
+    /// What can be told of a state in which accelerations and forces cannot be had: what is made of these is no number.
+    pub(crate) fn tape_without_forces(&mut self, t: T, q: &[T], v: &[T]) {
+        self.tape(t, q, v);
+        self.inputs[1 + 2 * q.len()..].fill(T::from_f64(f64::NAN));
+    }
+
     /// The outputs of the motion program at the last value: all that are held, also where those for guards were enough.
     pub(crate) fn complete_outputs(&mut self) {
         if !self.given {

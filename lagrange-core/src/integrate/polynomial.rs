@@ -45,6 +45,36 @@ impl<T: Scalar> StepPolynomial<T> {
         }
     }
 
+    /// Raises the degree to at least this; the polynomials stay what they are.
+    pub(crate) fn raise(&mut self, degree: usize) {
+        if degree <= self.degree {
+            return;
+        }
+        let (coordinates, before, width) = (self.coordinates(), self.degree + 1, degree + 1);
+        for rows in [&mut self.q, &mut self.v] {
+            rows.resize(coordinates * width, T::zero());
+            for i in (0..coordinates).rev() {
+                rows.copy_within(i * before..(i + 1) * before, i * width);
+                rows[i * width + before..(i + 1) * width].fill(T::zero());
+            }
+        }
+        self.degree = degree;
+    }
+
+    /// Leaves this first part of the step.
+    pub(crate) fn shorten(&mut self, part: f64) {
+        self.h *= T::from_f64(part);
+        for rows in [&mut self.q, &mut self.v] {
+            for row in rows.chunks_exact_mut(self.degree + 1) {
+                let mut power = 1.0;
+                for c in row {
+                    *c *= T::from_f64(power);
+                    power *= part;
+                }
+            }
+        }
+    }
+
     /// Number of coordinates.
     pub fn coordinates(&self) -> usize {
         self.q.len() / (self.degree + 1)

@@ -107,6 +107,7 @@ impl<T: Scalar> Run<T> {
         self.release_contacts_without_direction();
         self.ask_for_guards();
         if self.evaluate().is_ok() {
+            self.rank.begin(&self.dynamics);
             self.release_dead_centres();
         } else {
             self.release_start();

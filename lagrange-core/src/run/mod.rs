@@ -28,6 +28,7 @@ mod last_impacts;
 mod locator;
 pub(crate) mod lockstep;
 mod log;
+mod passage;
 mod piece;
 mod reach;
 mod redundant;
@@ -62,6 +63,7 @@ use corners::Lagrangian;
 use hidden::Hidden;
 use locator::Locator;
 use log::Recorder;
+use passage::Passage;
 use singular::RankWatch;
 use stepping::Stepper;
 use switch::Switcher;
@@ -94,6 +96,7 @@ pub(crate) struct Run<T: Scalar> {
     lagrangian: Option<Lagrangian>,
     /// Watches for positions where constraints lose rank.
     rank: RankWatch,
+    passage: Passage<T>,
     locator: Locator<T>,
     switcher: Switcher<T>,
     recorder: Recorder<T>,
@@ -170,6 +173,7 @@ impl<T: Scalar> Run<T> {
         state.name(d);
         let mode = Mode::open(d);
         let acting = acting(&system, &settings.effects);
+        let rank = RankWatch::new(d, &settings.effects);
         let mut run = Run {
             dynamics: Dynamics::of(system.clone(), &settings.effects),
             stepper: Stepper::new(settings, d, &state),
@@ -178,7 +182,11 @@ impl<T: Scalar> Run<T> {
             may_jump: acting.may_jump(),
             changes_with_time: acting.reads_time(),
             lagrangian: Lagrangian::new(&system, &settings.effects),
-            rank: RankWatch::new(d, &settings.effects),
+            passage: match rank.watches() {
+                true => Passage::new(n),
+                false => Passage::default(),
+            },
+            rank,
             locator: Locator::new(d, settings, &mode),
             switcher: Switcher::new(d, &state, &mode),
             recorder: Recorder::new(&system, settings, &state, &mode),

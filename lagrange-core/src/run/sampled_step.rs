@@ -184,11 +184,10 @@ impl<T: Scalar> Run<T> {
                 continue;
             }
             self.evaluate_end(hit.end()).map_err(|e| self.error(e))?;
-            let false_mark = self.misses_a_mark(hit.end());
-            if false_mark.map_err(|e| self.error(e))? || self.misses_its_root(&hit) {
+            if self.misses_a_mark(hit.end()) || self.misses_its_root(&hit) {
                 return Ok(None);
             }
-            self.now.distance = self.rank.distance(&self.dynamics);
+            self.now.distance = self.rank.reach(&self.dynamics);
             if !self.corrects_composites(&hit, hit.end(), &mut corrections) {
                 // What happens, and what only just does or does not, is as exact as the ends of steps are.
                 let method = self.stepper.other.as_deref();

@@ -54,8 +54,14 @@ impl<T: Scalar> Run<T> {
         let mut note = |defect: f64| worst = worse(worst, defect);
         let places = self.locator.polynomials.between_samples();
         for &s in places.as_ref().map_or(&WITHIN[..], |places| places) {
-            self.evaluate_end(s)?;
-            if explicit {
+            let known = self.evaluate_end(s);
+            if known.is_err() {
+                if !self.rank.watches() {
+                    return known.map(|()| f64::NAN);
+                }
+                self.look_at_end(s);
+            }
+            if explicit && known.is_ok() {
                 let accelerations = self.dynamics.acceleration();
                 let tolerance = self.settings.per_step();
                 note(defect(&self.stepper.step, s, accelerations, tolerance));
@@ -163,14 +169,11 @@ impl<T: Scalar> Run<T> {
         };
         // Positive before the root.
         let guard_at = |run: &mut Self, s: f64| -> Option<f64> {
-            run.evaluate_end(s).ok()?;
+            run.look_at_end(s);
             run.dynamics.report_value();
-            Some(
-                side * run
-                    .locator
-                    .polynomials
-                    .value(index, &run.now.mode, &run.dynamics),
-            )
+            let curves = &run.locator.polynomials;
+            let value = side * curves.value(index, &run.now.mode, &run.dynamics);
+            (!value.is_nan()).then_some(value)
         };
         let first = guard_at(self, root.s)?;
         let mut reach = (2.0 * first / rate).abs().max(4.0 * f64::EPSILON * root.s);
@@ -240,12 +243,12 @@ impl<T: Scalar> Run<T> {
 
     /// Whether a mark up to part `end` of the step is no zero of its term but of the interpolation only. What `dynamics` and `scratch` hold at
     /// the end of the step stays.
-    pub(super) fn misses_a_mark(&mut self, end: f64) -> Result<bool, EvaluationError> {
+    pub(super) fn misses_a_mark(&mut self, end: f64) -> bool {
         let mut marks = core::mem::take(&mut self.locator.marks);
         self.marks_until(end, &mut marks);
         let mut misses = false;
         for &(mark, s) in marks.iter().filter(|(_, s)| *s > 0.0) {
-            self.evaluate_end(s)?;
+            self.look_at_end(s);
             self.dynamics.report_value();
             let curves = &self.locator.polynomials;
             let located = Located::ByInterpolation(self.settings.tolerance);
@@ -253,10 +256,10 @@ impl<T: Scalar> Run<T> {
             misses |= !curves.mark_terms(mark).any(vanishes);
         }
         if !marks.is_empty() {
-            self.evaluate_end(end)?;
+            self.look_at_end(end);
         }
         self.locator.marks = marks;
-        Ok(misses)
+        misses
     }
 
     /// Where a root of a guard's polynomial is, and half its width: of what was sampled, on the dense output.

@@ -1,8 +1,8 @@
 //! Isolated positions where constraints lose rank: a linkage in its dead position.
 //!
 //! The motion goes smoothly through such a position, but the equations cannot be solved there, and close to it rounding is
-//! amplified by the inverse of the distance. A Taylor polynomial from some way before it is good beyond it: a step must
-//! only not *end* close to it.
+//! amplified by the inverse of the distance, and of its square. No step may *end* close to it: one that would is made longer, over it
+//! ([`super::passage`]). What ends a run there, a stop, needs no equations; where the mode would change there, the way on cannot be told.
 //!
 //! How close is read from the pivots of G = A D⁻¹ Aᵀ (A the rows of constraints, D the diagonal of the mass matrix, each
 //! element at its largest so far) in Cholesky's factorization with complete pivoting: the smallest of them that is not always zero, over its largest value
@@ -10,18 +10,27 @@
 
 use super::Run;
 use super::hit::Hit;
-use crate::arithmetic::Scalar;
+use super::passage::COEFFICIENTS;
+use crate::arithmetic::{Scalar, epsilon};
 use crate::dynamics::Dynamics;
 use crate::effects::{Effects, Item};
+use crate::error::Error;
 use crate::integrate::taylor;
-use crate::system::{Description, ValueRef};
+use crate::system::Description;
+use crate::trajectory::State;
 
 /// A step may come nearer to a loss of rank, or to its other side, by this factor.
-const NEARER: f64 = 0.35;
-/// Farther away than this from one it may end anywhere.
+const NEARER: f64 = 0.7;
+/// Farther away than this from one it may end anywhere,
 const CLOSE: f64 = 0.2;
-/// A step that would end near such a position is tried this much longer, over it.
-const LEAPS: [f64; 4] = [1.25, 1.5, 1.8, 2.2];
+/// or farther where a leap from there would be lost in rounding, which is so many units of it over the square of the distance,
+const ROUNDINGS_OF_LEAPS: f64 = 1400.0;
+/// but no farther than this.
+const CLOSEST_LEAP: f64 = 0.6;
+/// A leap is so many times as long as the way to the loss of rank: in the middle of an even number of points it is farthest from them.
+const WAYS: [f64; 3] = [2.0, 2.2, 1.8];
+/// The way may be longer than the step by this factor.
+const FARTHEST: f64 = 4.0;
 /// A leap is tried with any degree from this on.
 pub(super) const LEAST_DEGREE: usize = 6;
 /// Where no leap is good, the step is tried this much shorter.
@@ -30,10 +39,17 @@ pub(super) const RETREAT: f64 = 0.75;
 pub(super) const MOST_RETREATS: usize = 5;
 /// Nearer than this to such a position the equations say nothing reliable about forces.
 pub(super) const UNDECIDED: f64 = 1e-2;
-/// Error of a leap in units of what is allowed for a step: no more than steps have, so that passages do not cost more digits than they do.
-const GOOD: f64 = 0.3;
-/// Error of a leap in the same units where a step begins so near that nothing better can be had any more.
-const BEARABLE: f64 = 1e4;
+/// What rounding makes of the direction of the motion, in units of rounding over the square of the distance.
+const ROUNDINGS: f64 = 0.25;
+/// Error of a leap in units of what a step may get wrong.
+const GOOD: f64 = 1.0;
+/// What rounding may leave of it within a leap, in the same units: first, and if there is none such.
+const BEARABLE: [f64; 2] = [3.0, 30.0];
+/// Error, in the same units, of a Taylor polynomial that is near enough to begin with.
+const NEAR_ENOUGH: f64 = 1e8;
+
+/// Where a step begins nearer than this to a loss of rank ahead, and cannot leap over it, the run ends.
+const LOST: f64 = 1e-3;
 
 /// Nearer than this the steps of other methods are left to Taylor series.
 const DOUBTFUL: f64 = 0.4;
@@ -107,17 +123,38 @@ impl RankWatch {
         self.lighter.fill(0.0);
     }
 
-    /// Distance of the state that `dynamics` has evaluated from a loss of rank, 1 at the farthest so far.
-    pub(super) fn distance<T: Scalar>(&mut self, dynamics: &Dynamics<T>) -> f64 {
+    /// [`Self::reach`] at the start of a run, before it is known which rows will be held aside: those that are then are no loss of rank.
+    pub(super) fn begin<T: Scalar>(&mut self, dynamics: &Dynamics<T>) {
+        self.reach(dynamics);
+        self.acting = 0;
+    }
+
+    /// Takes the state that `dynamics` has evaluated for one that the motion reaches: what is the farthest so far may be farther now. Its distance.
+    pub(super) fn reach<T: Scalar>(&mut self, dynamics: &Dynamics<T>) -> f64 {
         if self.rows.is_empty() {
             return 1.0;
         }
-        self.fill(dynamics);
-        self.eliminate();
-        let mut nearest: f64 = 1.0;
+        self.take_masses(dynamics);
+        self.take_rows_aside(dynamics);
+        self.measure(dynamics);
         for (largest, pivot) in self.largest.iter_mut().zip(&self.pivots) {
             *largest = largest.max(*pivot);
         }
+        self.nearest()
+    }
+
+    /// Distance of the state that `dynamics` has evaluated from a loss of rank, 1 at the farthest that was reached.
+    pub(super) fn distance<T: Scalar>(&mut self, dynamics: &Dynamics<T>) -> f64 {
+        if self.rows.is_empty() || self.has_other_rows(dynamics) {
+            return 1.0;
+        }
+        self.measure(dynamics);
+        self.nearest()
+    }
+
+    /// How small a pivot is beside the largest of its kind.
+    fn nearest(&self) -> f64 {
+        let mut nearest: f64 = 1.0;
         let first = self.largest[0];
         for (largest, pivot) in self.largest.iter().zip(&self.pivots) {
             if *largest > DEPENDENT * first {
@@ -127,15 +164,22 @@ impl RankWatch {
         nearest
     }
 
-    fn fill<T: Scalar>(&mut self, dynamics: &Dynamics<T>) {
+    fn take_masses<T: Scalar>(&mut self, dynamics: &Dynamics<T>) {
         let d = dynamics.description();
-        let n = d.coordinates.len();
-        let number = |place: ValueRef| dynamics.motion(place).value();
         for &(i, j, place) in d.mass {
-            let mass = number(place);
-            if i == j && mass > self.masses[i] {
-                self.masses[i] = mass;
-                self.inverse_roots[i] = 1.0 / mass.sqrt();
+            if i == j {
+                self.masses[i] = self.masses[i].max(dynamics.motion(place).value());
+            }
+        }
+        // The four elements of an attitude are of one kind: which of them has hardly any inertia depends on where the body is turned.
+        for first in d.constraints.iter().filter_map(|c| c.attitude) {
+            let elements = &mut self.masses[first..first + 4];
+            let largest = elements.iter().copied().fold(0.0, f64::max);
+            elements.fill(largest);
+        }
+        for (inverse, &mass) in self.inverse_roots.iter_mut().zip(&self.masses) {
+            if mass > 0.0 {
+                *inverse = 1.0 / mass.sqrt();
             }
         }
         // Pivots that were large because there was hardly any inertia say nothing: a quaternion that was nearly 1.
@@ -144,21 +188,36 @@ impl RankWatch {
             self.largest.fill(0.0);
             self.lighter.copy_from_slice(&self.masses);
         }
+    }
+
+    /// Whether other rows than at the last look are held aside because other rows act: a body that rests on a contact and by friction needs no rod, and the
+    /// pivots are those of other rows now.
+    fn has_other_rows<T: Scalar>(&self, dynamics: &Dynamics<T>) -> bool {
+        let mut pairs = self.aside.iter().zip(&self.rows);
+        dynamics.acting_rows().len() != self.acting
+            && pairs.any(|(aside, &row)| *aside != dynamics.holds_aside(row))
+    }
+
+    fn take_rows_aside<T: Scalar>(&mut self, dynamics: &Dynamics<T>) {
+        if self.has_other_rows(dynamics) {
+            self.largest.fill(0.0);
+        }
+        self.acting = dynamics.acting_rows().len();
+        for (aside, &row) in self.aside.iter_mut().zip(&self.rows) {
+            *aside = dynamics.holds_aside(row);
+        }
+    }
+
+    /// Pivots at the state that `dynamics` has evaluated.
+    fn measure<T: Scalar>(&mut self, dynamics: &Dynamics<T>) {
+        let d = dynamics.description();
+        let n = d.coordinates.len();
         self.scaled.fill(0.0);
         let m = self.rows.len();
-        let acting = dynamics.acting_rows().len();
-        let switched = acting != self.acting;
-        self.acting = acting;
         for (k, &row) in self.rows.iter().enumerate() {
-            let aside = dynamics.holds_aside(row);
-            if aside != self.aside[k] && switched {
-                // A body that rests on a contact and by friction needs no rod: the pivots are those of other rows now.
-                self.largest.fill(0.0);
-            }
-            self.aside[k] = aside;
-            if !aside {
+            if !dynamics.holds_aside(row) {
                 for &(j, place) in d.rows[row].jacobian {
-                    self.scaled[k * n + j] = number(place) * self.inverse_roots[j];
+                    self.scaled[k * n + j] = dynamics.motion(place).value() * self.inverse_roots[j];
                 }
             }
         }
@@ -170,6 +229,7 @@ impl RankWatch {
                 (self.gram[i * m + j], self.gram[j * m + i]) = (sum, sum);
             }
         }
+        self.eliminate();
     }
 
     /// Pivots of the Gram matrix, descending.
@@ -206,7 +266,12 @@ impl RankWatch {
 impl<T: Scalar> Run<T> {
     /// Whether a step that ends at this distance from a loss of rank ends too close to it.
     pub(super) fn ends_close(&self, distance: f64) -> bool {
-        distance < CLOSE && distance < NEARER * self.now.distance
+        self.rank.watches()
+            && distance < NEARER * self.now.distance
+            && distance
+                < self
+                    .distance_for(ROUNDINGS_OF_LEAPS)
+                    .clamp(CLOSE, CLOSEST_LEAP)
     }
 
     /// Whether the step at hand begins near a loss of rank, ends near one or passes it: only Taylor series leap over it, other
@@ -223,62 +288,103 @@ impl<T: Scalar> Run<T> {
 
     /// Tries a step over the loss of rank that one of length `h` comes too close to; what happens first in it.
     ///
-    /// Rounding enters the equations amplified and grows through the coefficients as if the solution had a pole there; the
-    /// truncation error falls with the order. The length and order with the least defect beyond are the best compromise. Nothing if none
-    /// is good enough, or if the mode would have to be decided close to the loss of rank; else the step is made up to the first hit
-    /// in it or the end of the run, and its end evaluated.
-    pub(super) fn leap(&mut self, h: f64) -> Option<Hit> {
-        let mut least = if self.now.distance < CLOSE {
-            BEARABLE
-        } else {
-            GOOD
+    /// Nothing if none is good enough; else the step is made up to the first hit in it or the end of the run, and its end evaluated.
+    ///
+    /// # Errors
+    /// The mode would have to change so near to the loss of rank that rounding decides how.
+    pub(super) fn leap(&mut self, h: f64) -> Result<Option<Hit>, Error> {
+        let Some(way) = self.way_to_loss(h) else {
+            return Ok(None);
         };
-        let mut best = None;
-        for leap in LEAPS {
-            for degree in LEAST_DEGREE..=self.stepper.order {
-                if let Some((defect, distance)) = self.beyond(leap * h, degree)
-                    && defect < least
-                    && distance >= NEARER * NEARER * self.now.distance
-                {
-                    (least, best) = (defect, Some((leap * h, degree)));
-                }
-            }
+        let mut lengths = BEARABLE
+            .into_iter()
+            .flat_map(|most| WAYS.map(|ways| (ways * way, most)));
+        let good = lengths.find(|&(h, most)| self.leaps(h, most));
+        let Some((h, _)) = good else {
+            return Ok(None);
+        };
+        let longest = self.end - self.now.t.value();
+        if longest < h {
+            self.stepper.step.shorten(longest / h);
         }
-        let (h, degree) = best?;
-        self.write_polynomial(h.min(self.end - self.now.t.value()), degree);
-        if self.samples_hold() {
-            self.sharpen_roots(1.0);
-        } else {
-            self.locator.polynomials.take_series(
-                &self.dynamics,
-                &self.now.mode,
-                &self.stepper.powers[..=degree],
-            );
+        if !self.samples_hold() {
+            return Ok(None);
         }
+        self.sharpen_roots(1.0);
         let hit = self.first_hit();
         let distance = self.distance_at(hit.end());
-        let decides = matches!(hit, Hit::Guards(_));
-        if hit.end() == 0.0 || decides && distance < UNDECIDED {
-            return None;
+        let near = distance < self.least_distance();
+        if hit.end() == 0.0 || self.misses_a_mark(hit.end()) {
+            return Ok(None);
         }
-        let false_stop = matches!(hit, Hit::Stop(..)) && self.misses_its_root(&hit);
-        if false_stop || self.misses_a_mark(hit.end()).is_ok_and(|misses| misses) {
-            return None;
+        self.look_at_end(hit.end());
+        if self.misses_its_root(&hit) {
+            return Ok(None);
         }
-        self.now.distance = distance;
-        if distance < UNDECIDED {
+        if near && matches!(hit, Hit::Guards(_)) {
+            return Err(self.undecided_hit(&hit, distance));
+        }
+        if near {
+            self.now.distance = distance;
             // Forces are known a little before only.
             let parts = [0.99, 0.9, 0.7, 0.4];
             _ = parts
                 .into_iter()
-                .find(|part| self.distance_at(part * hit.end()) >= UNDECIDED);
+                .find(|part| self.distance_at(part * hit.end()) >= self.least_distance());
             self.state_at_end(hit.end());
+        } else {
+            self.evaluate_end(hit.end()).map_err(|e| self.error(e))?;
+            self.now.distance = self.rank.reach(&self.dynamics);
         }
-        Some(hit)
+        Ok(Some(hit))
     }
 
-    /// Samples the guards along a leap: the degree that is best for the motion may be too low for what is a function of it. Whether their interpolation is
-    /// good; forces have no values close to the loss of rank.
+    /// Nearer than this to a loss of rank, velocities are known less exactly than a step may be off.
+    pub(super) fn least_distance(&self) -> f64 {
+        self.distance_for(ROUNDINGS).min(CLOSE)
+    }
+
+    /// The distance at which so many units of rounding, over its square, are what a step may be off. Positions are known to rounding, the rows of
+    /// constraints to rounding by the distance, and the way along them to rounding by its square.
+    fn distance_for(&self, roundings: f64) -> f64 {
+        (roundings * epsilon::<T>() / self.settings.tolerance).sqrt()
+    }
+
+    /// Why the motion cannot go on from a hit so near to a loss of rank.
+    fn undecided_hit(&self, hit: &Hit, distance: f64) -> Error {
+        let d = self.description();
+        let names = self.locator.fallen.iter().filter_map(|guard| guard.name(d));
+        Error::Singular {
+            time: self.stepper.step.time(T::from_f64(hit.end())).value(),
+            mode: self.mode_in_words(),
+            items: names.collect(),
+            reason: format!(
+                "something happens where constraints lose rank, as those of aligned bars do (at {distance:.1e} of the largest distance from there): \
+                 rounding decides how the motion goes on; let it happen elsewhere, or ask for less accuracy"
+            ),
+        }
+    }
+
+    /// Whether the motion has come so near to a loss of rank that its equations say nothing reliable any more.
+    pub(super) fn is_lost(&self) -> bool {
+        self.now.distance < self.least_distance().max(LOST)
+    }
+
+    /// Why the motion cannot go on so near to a loss of rank.
+    pub(super) fn lost_rank(&self) -> Error {
+        Error::Singular {
+            time: self.now.t.value(),
+            mode: self.mode_in_words(),
+            items: Vec::new(),
+            reason: format!(
+                "constraints lose rank here, as those of aligned bars do (at {:.1e} of the largest distance from there), and no step over the \
+                 position is exact enough; another tolerance may pass it, an offset of a part avoids it",
+                self.now.distance,
+            ),
+        }
+    }
+
+    /// Samples the guards along a leap: what is a function of the motion may be no polynomial of its degree. Whether their interpolation is good.
     fn samples_hold(&mut self) -> bool {
         self.sample().is_ok()
             && self
@@ -299,18 +405,57 @@ impl<T: Scalar> Run<T> {
         }
     }
 
-    /// Defect and distance from a loss of rank at the end of a step of length `h` with a polynomial of this degree; nothing
-    /// if it cannot be evaluated there.
-    fn beyond(&mut self, h: f64, degree: usize) -> Option<(f64, f64)> {
+    /// How long it is to the loss of rank that a step of length `h` comes near: where the square of the distance has its least value, as a parabola has it.
+    fn way_to_loss(&mut self, h: f64) -> Option<f64> {
+        self.write_polynomial(h, self.stepper.order);
+        let places = [0.5, 0.75, 1.0];
+        let squares = places.map(|s| self.distance_at(s).powi(2));
+        let (slope, bend) = (
+            squares[2] - squares[0],
+            squares[2] - 2.0 * squares[1] + squares[0],
+        );
+        let least = places[1] - 0.25 * 0.5 * slope / bend;
+        (bend > 0.0 && least > 0.0 && least < FARTHEST).then_some(least * h)
+    }
+
+    /// Makes a step of length `h` over a loss of rank; whether it is good.
+    fn leaps(&mut self, h: f64, bearable: f64) -> bool {
+        let mut best = (NEAR_ENOUGH, None);
+        for degree in LEAST_DEGREE..=self.stepper.order.min(COEFFICIENTS) {
+            let defect = self.defect_of_series(h, degree);
+            if defect < best.0 {
+                best = (defect, Some(degree));
+            }
+        }
+        let Some(degree) = best.1 else {
+            return false;
+        };
         self.write_polynomial(h, degree);
-        self.evaluate_end(1.0).ok()?;
+        let collocated = self.collocate(bearable);
+        collocated.is_some_and(|(defect, distance)| defect <= GOOD && !self.ends_close(distance))
+    }
+
+    /// How far the series at hand, up to this degree, is off after a step of length `h`, in units of what a step may get wrong.
+    fn defect_of_series(&mut self, h: f64, degree: usize) -> f64 {
+        self.write_polynomial(h, degree);
+        self.defect_onto_constraints().unwrap_or(f64::INFINITY)
+    }
+
+    /// How far the step at hand is off at its end, in units of what a step may get wrong, by the accelerations of the state that is nearest to it on the
+    /// constraints: off these, where one follows from others, there are none.
+    pub(super) fn defect_onto_constraints(&mut self) -> Option<f64> {
+        self.state_at_end(1.0);
+        let State { q, v, .. } = &mut self.stepper.scratch;
+        let time = self.stepper.step.time(T::one());
+        self.dynamics.project(time, q, v, 0.0).ok()?;
+        self.dynamics.value_along(time, q, v).ok()?;
         let acceleration = self.dynamics.acceleration();
-        let defect = taylor::defect(
+        let tolerance = self.settings.per_step();
+        Some(taylor::defect(
             &self.stepper.step,
             1.0,
             acceleration,
-            self.settings.per_step(),
-        );
-        Some((defect, self.rank.distance(&self.dynamics)))
+            tolerance,
+        ))
     }
 }

@@ -150,6 +150,15 @@ impl<T: Scalar> Run<T> {
         self.evaluate_scratch(end)
     }
 
+    /// What can be told of the state at part `end` of the step: forces are no numbers where constraints lose rank.
+    pub(super) fn look_at_end(&mut self, end: f64) {
+        if self.evaluate_end(end).is_err() {
+            let State { q, v, .. } = &self.stepper.scratch;
+            let time = self.stepper.step.time(T::from_f64(end));
+            self.dynamics.tape_without_forces(time, q, v);
+        }
+    }
+
     /// The equations of motion for the state in `scratch`, that at part `end` of the step.
     pub(super) fn evaluate_scratch(&mut self, end: f64) -> Result<(), EvaluationError> {
         let State { q, v, .. } = &self.stepper.scratch;

@@ -119,8 +119,9 @@ impl<T: Scalar> Run<T> {
                 turns = self.gap_that_turns(&hit, moves / h);
                 self.state_at_end(looked);
             }
-            let (motion, guards) = match self.evaluate_scratch(looked) {
-                Ok(()) => {
+            let known = self.evaluate_scratch(looked).is_ok();
+            let (motion, guards) = match known {
+                true => {
                     // How far guards are off counts where it bounds the step.
                     let guards = match !guarded && self.guards_fit(&hit, looked) {
                         true => 0.0,
@@ -128,7 +129,7 @@ impl<T: Scalar> Run<T> {
                     };
                     (self.motion_defect(whole, looked), guards)
                 }
-                Err(_) => (f64::INFINITY, f64::INFINITY),
+                false => (f64::INFINITY, f64::INFINITY),
             };
             let guards = match rests {
                 true => taylor::worse(guards, self.guard_defect_within(&hit, looked)),
@@ -141,15 +142,23 @@ impl<T: Scalar> Run<T> {
                 return Err(self.breaks_on());
             }
             // A step must not end where the constraints lose rank.
-            let distance = self.rank.distance(&self.dynamics);
+            let distance = match known {
+                true => self.rank.distance(&self.dynamics),
+                false => 0.0,
+            };
             if self.ends_close(distance) && closer < MOST_RETREATS {
-                if let Some(hit) = self.leap(h) {
+                if let Some(hit) = self.leap(h)? {
                     return Ok(hit);
                 }
                 closer += 1;
-                self.recorder.trajectory.work.rejected += 1;
-                h *= RETREAT;
-                continue;
+                if known {
+                    if self.is_lost() {
+                        return Err(self.lost_rank());
+                    }
+                    self.recorder.trajectory.work.rejected += 1;
+                    h *= RETREAT;
+                    continue;
+                }
             }
             // Of accelerations that jump, at the cut of an `atan2` or a kink that is no branch, a step may take in the last moment only, and
             // what they change there counts whole.
@@ -170,7 +179,7 @@ impl<T: Scalar> Run<T> {
                         let time = self.stepper.step.time(T::from_f64(end)).value();
                         return Err(Error::Undirected { time, item });
                     }
-                    self.now.distance = distance;
+                    self.now.distance = self.rank.reach(&self.dynamics);
                     self.stepper.breaks = match passes {
                         true => self.stepper.breaks + 1,
                         false => 0,
@@ -299,7 +308,7 @@ impl<T: Scalar> Run<T> {
         }
         self.locator.fallen.clear();
         self.locator.rests.clear();
-        self.now.distance = self.rank.distance(&self.dynamics);
+        self.now.distance = self.rank.reach(&self.dynamics);
         Ok(Hit::Nothing)
     }
 

@@ -99,7 +99,11 @@ impl GuardPolynomials {
         for j in 0..m {
             let s = self.interpolation.nodes[j];
             step.state_into(T::from_f64(s), q, v);
-            dynamics.value(step.t + step.h * T::from_f64(s), q, v)?;
+            let time = step.t + step.h * T::from_f64(s);
+            let forces = dynamics.value(time, q, v);
+            if forces.is_err() {
+                dynamics.tape_without_forces(time, q, v);
+            }
             if j == 0 {
                 dynamics.take_directions();
             }
@@ -107,6 +111,11 @@ impl GuardPolynomials {
             dynamics.report_value();
             for index in 0..self.list.len() {
                 let sample = self.value(index, mode, dynamics);
+                if let Err(error) = forces
+                    && (self.list[index].guard.is_force() || sample.is_nan())
+                {
+                    return Err(error);
+                }
                 let curve = &mut self.coefficients[index * m..][..m];
                 if j == 0 {
                     curve[0] = sample;
