@@ -10,7 +10,6 @@
 use super::Run;
 use crate::arithmetic::Scalar;
 use crate::integrate::taylor::worse;
-use crate::trajectory::State;
 use core::f64::consts::PI;
 use nalgebra::DMatrix;
 
@@ -68,20 +67,19 @@ impl<T: Scalar> Passage<T> {
 }
 
 impl<T: Scalar> Run<T> {
-    /// Gives the polynomial of the step at hand, which is near the motion, its accelerations; how far it is off at the end, in units of what a step may
-    /// get wrong, and the distance from a loss of rank there. Nothing if that is not found, or rounding leaves more than what is `bearable` of the accelerations lacking.
-    pub(super) fn collocate(&mut self, bearable: f64) -> Option<(f64, f64)> {
+    /// Gives the polynomial of the step at hand, which is near the motion, its accelerations. What rounding leaves of them lacking, in units of what a step may
+    /// get wrong; nothing if they cannot be had.
+    pub(super) fn collocate(&mut self) -> Option<f64> {
         self.close_positions();
         let mut before = f64::INFINITY;
+        let mut left: f64 = 0.0;
         // Derivatives follow the numbers.
         let mut more = T::DERIVATIVES.min(1) * FOLLOWING;
         for _ in 0..MOST_ITERATIONS {
             let lacks = self.take_lacking()?;
             self.add_lacking();
             if lacks <= ENOUGH || !(lacks < CONVERGES * before) {
-                if lacks > bearable {
-                    return None;
-                }
+                left = left.max(lacks);
                 if more == 0 {
                     break;
                 }
@@ -89,8 +87,7 @@ impl<T: Scalar> Run<T> {
             }
             before = lacks;
         }
-        let defect = self.defect_onto_constraints()?;
-        Some((defect, self.rank.distance(&self.dynamics)))
+        Some(left)
     }
 
     /// Makes the polynomials of positions those whose derivatives are the polynomials of velocities: a series ends with the same power in both.
@@ -107,18 +104,15 @@ impl<T: Scalar> Run<T> {
     /// Takes what accelerations the polynomial lacks at its points; the largest change of a velocity that follows from them, in units of what a step may get
     /// wrong.
     fn take_lacking(&mut self) -> Option<f64> {
-        let tolerance = self.settings.per_step();
         let h = self.stepper.step.h.value();
         let mut worst = 0.0;
-        for (j, &place) in self.passage.points.iter().enumerate() {
-            let (step, State { q, v, .. }) = (&self.stepper.step, &mut self.stepper.scratch);
-            let s = T::from_f64(place);
-            step.state_into(s, q, v);
-            let time = step.time(s);
-            self.dynamics.project(time, q, v, 0.0).ok()?;
-            self.dynamics.value_along(time, q, v).ok()?;
+        for j in 0..POINTS {
+            let place = self.passage.points[j];
+            self.evaluate_onto_constraints(place).ok()?;
+            let (step, v) = (&self.stepper.step, &self.stepper.scratch.v);
+            let tolerance = self.settings.per_step();
             for (i, &a) in self.dynamics.acceleration().iter().enumerate() {
-                let lacks = a - step.acceleration(i, s);
+                let lacks = a - step.acceleration(i, T::from_f64(place));
                 let change = (h * lacks.value()).abs();
                 let allowed = tolerance.scale(i, v[i].value().abs());
                 worst = worse(worst, weight(place) * change / allowed);

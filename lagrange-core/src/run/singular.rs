@@ -17,7 +17,6 @@ use crate::effects::{Effects, Item};
 use crate::error::Error;
 use crate::integrate::taylor;
 use crate::system::Description;
-use crate::trajectory::State;
 
 /// A step may come nearer to a loss of rank, or to its other side, by this factor.
 const NEARER: f64 = 0.7;
@@ -43,8 +42,10 @@ pub(super) const UNDECIDED: f64 = 1e-2;
 const ROUNDINGS: f64 = 0.25;
 /// Error of a leap in units of what a step may get wrong.
 const GOOD: f64 = 1.0;
-/// What rounding may leave of it within a leap, in the same units: first, and if there is none such.
-const BEARABLE: [f64; 2] = [3.0, 30.0];
+/// What rounding leaves of it within a leap, in the same units, is no more than this as a rule,
+const CLEAN: f64 = 3.0;
+/// and than this where no leap is better.
+const BEARABLE: f64 = 30.0;
 /// Error, in the same units, of a Taylor polynomial that is near enough to begin with.
 const NEAR_ENOUGH: f64 = 1e8;
 
@@ -296,11 +297,7 @@ impl<T: Scalar> Run<T> {
         let Some(way) = self.way_to_loss(h) else {
             return Ok(None);
         };
-        let mut lengths = BEARABLE
-            .into_iter()
-            .flat_map(|most| WAYS.map(|ways| (ways * way, most)));
-        let good = lengths.find(|&(h, most)| self.leaps(h, most));
-        let Some((h, _)) = good else {
+        let Some(h) = self.steps_over(way) else {
             return Ok(None);
         };
         let longest = self.end - self.now.t.value();
@@ -418,8 +415,23 @@ impl<T: Scalar> Run<T> {
         (bend > 0.0 && least > 0.0 && least < FARTHEST).then_some(least * h)
     }
 
-    /// Makes a step of length `h` over a loss of rank; whether it is good.
-    fn leaps(&mut self, h: f64, bearable: f64) -> bool {
+    /// Makes a step over a loss of rank that is this `way` off; its length, if one is good.
+    fn steps_over(&mut self, way: f64) -> Option<f64> {
+        let mut bearable = None;
+        for h in WAYS.map(|ways| ways * way) {
+            match self.leaps(h) {
+                Some(left) if left <= CLEAN => return Some(h),
+                Some(left) if left <= BEARABLE => bearable = bearable.or(Some(h)),
+                _ => {}
+            }
+        }
+        let h = bearable?;
+        // The step at hand is that of another length.
+        self.leaps(h).map(|_| h)
+    }
+
+    /// Makes a step of length `h` over a loss of rank; what rounding leaves of its error, if it is good otherwise.
+    fn leaps(&mut self, h: f64) -> Option<f64> {
         let mut best = (NEAR_ENOUGH, None);
         for degree in LEAST_DEGREE..=self.stepper.order.min(COEFFICIENTS) {
             let defect = self.defect_of_series(h, degree);
@@ -427,12 +439,11 @@ impl<T: Scalar> Run<T> {
                 best = (defect, Some(degree));
             }
         }
-        let Some(degree) = best.1 else {
-            return false;
-        };
-        self.write_polynomial(h, degree);
-        let collocated = self.collocate(bearable);
-        collocated.is_some_and(|(defect, distance)| defect <= GOOD && !self.ends_close(distance))
+        self.write_polynomial(h, best.1?);
+        let left = self.collocate()?;
+        let defect = self.defect_onto_constraints()?;
+        let distance = self.rank.distance(&self.dynamics);
+        (defect <= GOOD && !self.ends_close(distance)).then_some(left)
     }
 
     /// How far the series at hand, up to this degree, is off after a step of length `h`, in units of what a step may get wrong.
@@ -443,12 +454,8 @@ impl<T: Scalar> Run<T> {
 
     /// How far the step at hand is off at its end, in units of what a step may get wrong, by the accelerations of the state that is nearest to it on the
     /// constraints: off these, where one follows from others, there are none.
-    pub(super) fn defect_onto_constraints(&mut self) -> Option<f64> {
-        self.state_at_end(1.0);
-        let State { q, v, .. } = &mut self.stepper.scratch;
-        let time = self.stepper.step.time(T::one());
-        self.dynamics.project(time, q, v, 0.0).ok()?;
-        self.dynamics.value_along(time, q, v).ok()?;
+    fn defect_onto_constraints(&mut self) -> Option<f64> {
+        self.evaluate_onto_constraints(1.0).ok()?;
         let acceleration = self.dynamics.acceleration();
         let tolerance = self.settings.per_step();
         Some(taylor::defect(

@@ -159,6 +159,15 @@ impl<T: Scalar> Run<T> {
         }
     }
 
+    /// The equations of motion for the state at part `end` of the step, moved onto the constraints, in `scratch`.
+    pub(super) fn evaluate_onto_constraints(&mut self, end: f64) -> Result<(), EvaluationError> {
+        self.state_at_end(end);
+        let State { q, v, .. } = &mut self.stepper.scratch;
+        let time = self.stepper.step.time(T::from_f64(end));
+        self.dynamics.project(time, q, v, 0.0)?;
+        self.evaluate_scratch(end)
+    }
+
     /// The equations of motion for the state in `scratch`, that at part `end` of the step.
     pub(super) fn evaluate_scratch(&mut self, end: f64) -> Result<(), EvaluationError> {
         let State { q, v, .. } = &self.stepper.scratch;

@@ -305,28 +305,32 @@ fn linkages(seed: u64, count: usize) -> Vec<Linkage> {
     found
 }
 
-fn start_of(bars: &FourBar, passage: &Passage, a: f64, rate: f64) -> (State<f64>, f64) {
-    let rates = bars.rates(a, passage.start);
-    let [phi, b] = passage.start;
-    let start = state(&[a, phi, b], &[rate, rate * rates[0], rate * rates[1]]);
-    (start, bars.inertia_of_crank(rates) * rate * rate)
+impl Linkage {
+    /// The start, and twice its energy.
+    fn start(&self) -> (State<f64>, f64) {
+        let a = self.angles[0] - self.way[0];
+        let rates = self.bars.rates(a, self.passage.start);
+        let [phi, b] = self.passage.start;
+        let v = [1.0, rates[0], rates[1]].map(|rate| rate * self.rate);
+        let twice = self.bars.inertia_of_crank(rates) * self.rate * self.rate;
+        (state(&[a, phi, b], &v), twice)
+    }
 }
 
 /// No weight acts: what the crank's rate is follows from the energy, wherever the linkage is.
 #[test]
 fn all_methods_stop_where_bars_are_aligned_and_pass_them() {
     for (method, tolerance) in methods_at(SINGLE_METHODS, [1e-6, 1e-9]) {
-        for (k, linkage) in linkages(11, 10).into_iter().enumerate() {
+        for (k, linkage) in linkages(11, 10).iter().enumerate() {
             let Linkage {
                 bars,
                 angles,
                 passage,
-                rate,
-                way,
+                way: [_, after],
+                ..
             } = linkage;
-            let [before, after] = way;
             let asked = format!("{method} {tolerance:e}, {k}");
-            let (start, twice) = start_of(&bars, &passage, angles[0] - before, rate);
+            let (start, twice) = linkage.start();
             let stops = FourBar {
                 end: angles[0],
                 aligned: 100.0,
@@ -372,23 +376,25 @@ fn impacts_near_aligned_bars_are_right_or_refused() {
     let mut refused = 0;
     for (method, tolerance) in methods_at(SINGLE_METHODS, TOLERANCES) {
         let mut random = Random::new(12);
-        for (k, linkage) in linkages(13, 12).into_iter().enumerate() {
+        for (k, linkage) in linkages(13, 12).iter().enumerate() {
             let Linkage {
                 bars,
                 angles,
                 passage,
-                rate,
-                way,
+                way: [before, after],
+                ..
             } = linkage;
-            let [before, after] = way;
             let beside = 10.0_f64.powf(random.between(-10.0, -1.0)).min(0.9 * after);
             let beside = if k % 3 == 0 { -beside } else { beside };
             let wall = angles[0] + beside;
-            let (start, twice) = start_of(&bars, &passage, angles[0] - before, rate);
-            let bars = FourBar { wall, ..bars };
+            let (start, twice) = linkage.start();
+            let bars = FourBar {
+                wall,
+                ..bars.clone()
+            };
             let asked = format!("{method} {tolerance:e}, {k}, {beside:e}");
             let simulation = Simulation::new(&bars).method(method).tolerance(tolerance);
-            let until = 1.3 * bars.duration(&passage, [angles[0] - before, wall], twice);
+            let until = 1.3 * bars.duration(passage, [angles[0] - before, wall], twice);
             match simulation.run(start, 0.0..until) {
                 Ok(run) => {
                     let [a, phi, b] = run.final_state().q[..] else {
