@@ -127,8 +127,11 @@ impl<T: Scalar> Run<T> {
                 }
             }
             Hit::Stop(stop, _) => {
-                if !self.now.valued {
-                    self.evaluate()?;
+                // The last mark may have been evaluated since.
+                match self.now.valued {
+                    true => {}
+                    false if self.is_undecided() => self.evaluate_at_or_before(T::from_f64(end)),
+                    false => self.evaluate()?,
                 }
                 self.finish(stop);
             }

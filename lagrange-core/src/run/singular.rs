@@ -323,12 +323,7 @@ impl<T: Scalar> Run<T> {
         }
         if near {
             self.now.distance = distance;
-            // Forces are known a little before only.
-            let parts = [0.99, 0.9, 0.7, 0.4];
-            _ = parts
-                .into_iter()
-                .find(|part| self.distance_at(part * hit.end()) >= self.least_distance());
-            self.state_at_end(hit.end());
+            self.evaluate_at_or_before(T::from_f64(hit.end()));
         } else {
             self.evaluate_end(hit.end()).map_err(|e| self.error(e))?;
             self.now.distance = self.rank.reach(&self.dynamics);

@@ -18,6 +18,9 @@ use crate::trajectory::State;
 /// A slip close to its rest is looked at from this part of the way.
 pub(super) const JUST_BEFORE: f64 = 0.999;
 
+/// Parts of the way to an instant at which its forces are looked for.
+const AT_OR_BEFORE: [f64; 6] = [1.0, 0.999, 0.99, 0.9, 0.7, 0.4];
+
 /// So many times a step is made shorter for what it hides.
 const MOST_SHORTENED: usize = 16;
 
@@ -157,6 +160,22 @@ impl<T: Scalar> Run<T> {
             let time = self.stepper.step.time(T::from_f64(end));
             self.dynamics.tape_without_forces(time, q, v);
         }
+    }
+
+    /// Evaluates the equations at part `end` of the step, or as close before it as they say something reliable: at a pole, where an angle has no inertia,
+    /// and where constraints lose rank forces are known beside it only. The state at `end` is left in `scratch`.
+    pub(super) fn evaluate_at_or_before(&mut self, end: T) {
+        for part in AT_OR_BEFORE {
+            let place = end * T::from_f64(part);
+            let (step, State { q, v, .. }) = (&self.stepper.step, &mut self.stepper.scratch);
+            step.state_into(place, q, v);
+            let known = self.dynamics.value_along(step.time(place), q, v);
+            if known.is_ok() && self.rank.distance(&self.dynamics) >= self.least_distance() {
+                break;
+            }
+        }
+        let State { q, v, .. } = &mut self.stepper.scratch;
+        self.stepper.step.state_into(end, q, v);
     }
 
     /// The equations of motion for the state at part `end` of the step, moved onto the constraints, in `scratch`.

@@ -25,9 +25,6 @@ const UNITS_OF_TIME: f64 = 64.0;
 /// Roots of interpolations are looked for so much farther than they may be when they are sharpened.
 const FARTHER: f64 = 1.25;
 
-/// Parts of the way to a mark at which its forces are looked for.
-const HERE_OR_BESIDE: [f64; 4] = [1.0, 0.999, 0.9, 0.5];
-
 /// A term of a stop or of a mark over the step.
 #[derive(Clone, Copy)]
 struct Term<'c> {
@@ -273,19 +270,9 @@ impl<T: Scalar> Run<T> {
             if time.value() - last <= 2.0 * resolution {
                 continue;
             }
-            let mut state = core::mem::take(&mut self.stepper.scratch);
             self.now.valued = false;
-            let (step, dynamics) = (&self.stepper.step, &mut self.dynamics);
-            // At a pole, where an angle has no inertia, forces are known beside it only.
-            for part in HERE_OR_BESIDE {
-                let place = s * T::from_f64(part);
-                step.state_into(place, &mut state.q, &mut state.v);
-                let known = dynamics.value_along(step.time(place), &state.q, &state.v);
-                if known.is_ok() {
-                    break;
-                }
-            }
-            step.state_into(s, &mut state.q, &mut state.v);
+            self.evaluate_at_or_before(s);
+            let state = core::mem::take(&mut self.stepper.scratch);
             self.log_watch(Subject::Mark(mark), EventKind::Mark, time, &state);
             self.stepper.scratch = state;
         }

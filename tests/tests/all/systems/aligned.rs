@@ -333,10 +333,15 @@ fn all_methods_stop_where_bars_are_aligned_and_pass_them() {
             let (start, twice) = linkage.start();
             let stops = FourBar {
                 end: angles[0],
-                aligned: 100.0,
                 ..bars.clone()
             };
             let run = run_by(&stops, (method, tolerance), start.clone(), 20.0);
+            // The mark is at the instant of the stop.
+            let logged = words(&run);
+            assert!(
+                logged.len() == 2 && logged[0].contains("mark"),
+                "{asked}: {logged:?}"
+            );
             let bound = 1e3 * tolerance;
             let aligned = bars.inertia_of_crank(passage.aligned);
             agree(&asked, run.final_state().q[0], angles[0], bound);
