@@ -55,6 +55,8 @@ pub struct ModeStructure {
     pub rows: usize,
     /// Number of groups of products whose factors a series keeps.
     pub products: usize,
+    /// Number of angles whose sine and cosine are kept.
+    pub turns: usize,
     /// Outputs of the motion tape that are given, with their series but for those of inertia and Jacobians: (node, row).
     pub motion: &'static [(usize, usize)],
     /// Outputs of the report tape whose series are given: (node, row).
@@ -70,20 +72,44 @@ pub struct ModeStructure {
 pub type Arguments<'a, N> = (N, &'a [N], &'a [N]);
 
 /// Accelerations from constants, needs that are held, and a state; if asked for, also the first coefficients of the rows of
-/// [`ModeStructure::rows`] that are forces or that guards read. Those of q and v, and what the mode keeps at zero, are left as they
-/// are. False if a pivot is not safe.
-pub type ValueFn<N> = fn(&[N], &Selection, Arguments<'_, N>, &mut [N], Option<&mut [N]>) -> bool;
+/// [`ModeStructure::rows`] that are forces or that guards read. What nobody reads, and what the mode keeps at zero, is left as it
+/// is. False if a pivot is not safe.
+pub type ValueFn<N> =
+    fn(&[N], &Selection, Arguments<'_, N>, &mut [N], Option<&mut [N]>, &mut [Turn<N>]) -> bool;
 
 /// Coefficients 0…order, at most 28, of the rows of [`ModeStructure::rows`], from constants, needs that are held, the order and a
-/// state, with memory for products.
-pub type SeriesFn<N> = fn(
-    &[N],
-    &Selection,
-    usize,
-    Arguments<'_, N>,
-    &mut [Row<N>],
-    &mut [Factors<N>],
-) -> Result<(), Refused>;
+/// state.
+pub type SeriesFn<N> =
+    fn(&[N], &Selection, usize, Arguments<'_, N>, Memory<'_, N>) -> Result<(), Refused>;
+
+/// What a series is written into: its rows, the factors of its products, and angles.
+pub type Memory<'a, N> = (&'a mut [Row<N>], &'a mut [Factors<N>], &'a mut [Turn<N>]);
+
+/// An angle with its sine and cosine: a step begins at the state that ended the one before, and what may follow a switch is tried at one state.
+#[derive(Clone, Copy, Debug)]
+pub struct Turn<N> {
+    angle: N,
+    pair: (N, N),
+}
+
+impl<N: Number> Turn<N> {
+    /// That by 0.
+    pub fn none() -> Self {
+        Self {
+            angle: N::of(0.0),
+            pair: (N::of(0.0), N::of(1.0)),
+        }
+    }
+
+    /// (sin, cos) of an angle, computed anew where it is not the one that was asked for last.
+    #[inline(always)]
+    pub fn sin_cos(&mut self, angle: N) -> (N, N) {
+        if !angle.is_same(self.angle) {
+            (self.angle, self.pair) = (angle, angle.sin_cos());
+        }
+        self.pair
+    }
+}
 
 /// The series of a mode, for any kind of number: what a [`SeriesFn`] does.
 pub trait ModeSeries<N: Number> {
@@ -97,8 +123,7 @@ pub trait ModeSeries<N: Number> {
         held: &Selection,
         order: usize,
         state: Arguments<'_, N>,
-        rows: &mut [Row<N>],
-        products: &mut [Factors<N>],
+        memory: Memory<'_, N>,
     ) -> Result<(), Refused>;
 }
 
@@ -111,10 +136,9 @@ pub fn across<S: ModeSeries<N>, N: Number>(
     held: &Selection,
     order: usize,
     state: Arguments<'_, N>,
-    rows: &mut [Row<N>],
-    products: &mut [Factors<N>],
+    memory: Memory<'_, N>,
 ) -> Result<(), Refused> {
-    let arguments = (c, held, order, state, rows, products);
+    let arguments = (c, held, order, state, memory);
     registers::across::<Expansion<S>, _>(arguments).unwrap_or(Err(Refused::NoRegisters))
 }
 
@@ -124,8 +148,7 @@ type SeriesArguments<'a, N> = (
     &'a Selection<'a>,
     usize,
     Arguments<'a, N>,
-    &'a mut [Row<N>],
-    &'a mut [Factors<N>],
+    Memory<'a, N>,
 );
 
 /// A series as a function of one argument.
@@ -137,9 +160,9 @@ impl<N: Number, S: ModeSeries<N>> Body<SeriesArguments<'_, N>> for Expansion<S> 
     #[inline(always)]
     fn run(
         registers: Registers,
-        (c, held, order, state, rows, products): SeriesArguments<'_, N>,
+        (c, held, order, state, memory): SeriesArguments<'_, N>,
     ) -> Self::Output {
-        S::expand(registers, c, held, order, state, rows, products)
+        S::expand(registers, c, held, order, state, memory)
     }
 }
 

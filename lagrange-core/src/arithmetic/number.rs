@@ -48,6 +48,8 @@ pub trait Number:
     fn tanh(self) -> Self;
     /// xᶜ for a real exponent.
     fn powf(self, c: f64) -> Self;
+    /// Whether every function gives the same of both.
+    fn is_same(self, other: Self) -> bool;
     /// Whether one of them is zero.
     fn any_zero(self) -> bool;
     /// Whether all are positive.
@@ -203,6 +205,12 @@ impl<T: Scalar> Number for T {
         Scalar::powf(self, c)
     }
     #[inline(always)]
+    fn is_same(self, other: Self) -> bool {
+        // Zeros of both signs are equal, and so are derivatives that are.
+        let bits = |x: T| x.value().to_bits();
+        T::DERIVATIVES == 0 && self == other && bits(self) == bits(other)
+    }
+    #[inline(always)]
     fn any_zero(self) -> bool {
         self.value() == 0.0
     }
@@ -291,6 +299,10 @@ impl<T: Scalar, const L: usize> Number for Pack<T, L> {
     #[inline(always)]
     fn powf(self, c: f64) -> Self {
         each_lane!(lane => Scalar::powf(self.0[lane], c))
+    }
+    #[inline(always)]
+    fn is_same(self, other: Self) -> bool {
+        (0..L).all(|lane| self.0[lane].is_same(other.0[lane]))
     }
     #[inline(always)]
     fn any_zero(self) -> bool {

@@ -9,7 +9,7 @@ use super::output_mask::{self, OutputMask};
 use super::shape::{Asked, Part, Planned};
 use crate::arithmetic::Scalar;
 use crate::effects::Effects;
-use crate::equations::Arguments;
+use crate::equations::{Arguments, Turn};
 use crate::linear::{KktPattern, Solver, UnitQuaternion, acting};
 use crate::mode::Mode;
 use crate::system::{Description, ErasedSystem, Selection};
@@ -194,13 +194,18 @@ impl<T: Scalar> Compiled<T> {
 
     /// Accelerations by the functions of the mode.
     #[inline]
-    pub(super) fn accelerations(&self, state: Arguments<T>, out: &mut [T]) -> Outcome {
+    pub(super) fn accelerations(
+        &self,
+        state: Arguments<T>,
+        out: &mut [T],
+        turns: &mut [Turn<T>],
+    ) -> Outcome {
         let (_, q, v) = state;
         let Some(emitted) = self.functions().filter(|emitted| emitted.holds_at(q, v)) else {
             return Outcome::NotGiven;
         };
         let held = self.selection(&self.motion_needs);
-        Outcome::of(emitted.accelerations(&held, state, out), out)
+        Outcome::of(emitted.accelerations(&held, state, out, turns), out)
     }
 
     /// The same with the forces of all rows, and what is held if guards read it.
@@ -210,8 +215,8 @@ impl<T: Scalar> Compiled<T> {
         d: &Description,
         for_guards: bool,
         state: Arguments<T>,
-        accelerations: &mut [T],
-        forces: &mut [T],
+        (accelerations, forces): (&mut [T], &mut [T]),
+        turns: &mut [Turn<T>],
     ) -> Outcome {
         let (_, q, v) = state;
         if !self
@@ -230,14 +235,14 @@ impl<T: Scalar> Compiled<T> {
         let Some(emitted) = &mut self.emitted else {
             return Outcome::NotGiven;
         };
-        let safe = emitted.value(&held, state, accelerations);
+        let safe = emitted.value(&held, state, accelerations, turns);
         forces.copy_from_slice(emitted.forces(d));
         Outcome::of(safe, accelerations)
     }
 
-    /// What the functions of the mode are told for these needs.
+    /// What functions are told for these needs.
     #[inline]
-    fn selection<'a>(&'a self, needs: &'a OutputMask) -> Selection<'a> {
+    pub(super) fn selection<'a>(&'a self, needs: &'a OutputMask) -> Selection<'a> {
         let branches = &self.mode.branches;
         Selection { needs, branches }
     }

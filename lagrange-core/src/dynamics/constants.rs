@@ -25,6 +25,8 @@ struct OfBranches<T> {
     program: Program,
     registers: Vec<T>,
     outputs: Vec<Register>,
+    /// The results.
+    values: Vec<T>,
     /// Whether the parameters have changed since the results were computed.
     outdated: bool,
 }
@@ -68,8 +70,7 @@ impl<T: Scalar> Constants<T> {
         let one = &mut self.list[index];
         one.renew(system);
         constants.clear();
-        let values = one.outputs.iter();
-        constants.extend(values.map(|register| one.registers[register.index()]));
+        constants.extend_from_slice(&one.values);
     }
 }
 
@@ -102,6 +103,7 @@ impl<T: Scalar> OfBranches<T> {
             program,
             registers,
             outputs: outputs.collect(),
+            values: Vec::new(),
             outdated: true,
         }
     }
@@ -115,5 +117,9 @@ impl<T: Scalar> OfBranches<T> {
             self.registers[1 + index] = system.parameter(index);
         }
         self.program.evaluate(0, &mut self.registers);
+        let values = self.outputs.iter();
+        self.values.clear();
+        self.values
+            .extend(values.map(|register| self.registers[register.index()]));
     }
 }

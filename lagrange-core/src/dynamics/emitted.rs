@@ -3,7 +3,8 @@
 use crate::arithmetic::{Scalar, epsilon};
 use crate::effects::{Effects, Item};
 use crate::equations::{
-    Arguments, Factors, FrictionState, ModeStructure, ROW, Refused, Row, STRIDE, SeriesFn, ValueFn,
+    Arguments, Factors, FrictionState, ModeStructure, ROW, Refused, Row, STRIDE, SeriesFn, Turn,
+    ValueFn,
 };
 use crate::mode::{Direction, FrictionMode, Mode};
 use crate::system::{Description, ErasedSystem, Selection, ValueRef};
@@ -137,8 +138,9 @@ impl<T: Scalar> Emitted<T> {
         held: &Selection,
         state: Arguments<T>,
         out: &mut [T],
+        turns: &mut [Turn<T>],
     ) -> bool {
-        (self.value)(&self.constants, held, state, out, None)
+        (self.value)(&self.constants, held, state, out, None, turns)
     }
 
     /// Accelerations, forces, and what `held` asks for. False if a pivot is not safe.
@@ -148,13 +150,10 @@ impl<T: Scalar> Emitted<T> {
         held: &Selection,
         state: Arguments<T>,
         accelerations: &mut [T],
+        turns: &mut [Turn<T>],
     ) -> bool {
-        let (_, q, v) = state;
-        let (positions, rest) = self.values.split_at_mut(q.len());
-        positions.copy_from_slice(q);
-        rest[..v.len()].copy_from_slice(v);
         let values = Some(&mut self.values[..]);
-        (self.value)(&self.constants, held, state, accelerations, values)
+        (self.value)(&self.constants, held, state, accelerations, values, turns)
     }
 
     /// The forces of all rows at the last [value](Self::value).
@@ -190,10 +189,11 @@ impl<T: Scalar> Emitted<T> {
         held: &Selection,
         order: usize,
         state: Arguments<T>,
+        turns: &mut [Turn<T>],
     ) -> Result<(), Refused> {
         self.order = order;
-        let (rows, products) = (&mut self.rows, &mut self.products);
-        (self.series)(&self.constants, held, order, state, rows, products)
+        let memory = (&mut self.rows[..], &mut self.products[..], turns);
+        (self.series)(&self.constants, held, order, state, memory)
     }
 
     #[inline(always)]

@@ -7,6 +7,12 @@ use crate::linear::KktPattern;
 use crate::program::{Builder, Numbers, Op, Register, room};
 use crate::system::{Description, ErasedSystem, Normal, Selection, ValueRef};
 
+/// How many numbers equations for outputs have.
+pub(super) fn most_numbers(d: &Description) -> usize {
+    let exact = d.motion.numbers.len() + d.report.numbers.len();
+    d.constants.outputs + d.parameters.len() + exact
+}
+
 /// The numbers of a mode: constants, parameters, exact numbers of both programs, those of the plan for a solution.
 pub(super) fn collect<T: Scalar>(
     system: &dyn ErasedSystem<T>,

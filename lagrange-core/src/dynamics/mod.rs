@@ -38,6 +38,7 @@ pub(crate) use slip_direction::{approach, cross, dot};
 
 use crate::arithmetic::Scalar;
 use crate::effects::{Effects, Item};
+use crate::equations::Turn;
 use crate::linear::{SolveError, Solver};
 use crate::mode::Mode;
 use crate::system::Erased;
@@ -97,6 +98,8 @@ pub struct Dynamics<T: Scalar> {
     /// Modes met so far, and which is the present one.
     modes: Vec<Compiled<T>>,
     current: usize,
+    /// Angles of the functions of all modes.
+    turns: Vec<Turn<T>>,
     /// Memory of renewals.
     numbers: Vec<T>,
     /// Index of the mode to forget next.
@@ -151,14 +154,17 @@ impl<T: Scalar> Dynamics<T> {
         projector.reserve(n, rows);
         let mut constants = Constants::new(d, effects);
         let open = Compiled::new(&*system, effects, &Mode::open(d), &mut constants);
+        let turns = system.structures().iter().map(|structure| structure.turns);
         Self {
+            turns: vec![Turn::none(); turns.max().unwrap_or(0)],
             effects: effects.clone(),
             constants,
             modes: vec![open],
             system,
             description: d,
             current: 0,
-            numbers: Vec::new(),
+            // A projection may be the first to ask for them, in the middle of a run.
+            numbers: Vec::with_capacity(loading::most_numbers(d)),
             oldest: 0,
             extra: OutputMask::new(d),
             holds: false,

@@ -46,7 +46,8 @@ impl<T: Scalar> Dynamics<T> {
         self.hold();
         if self.choose(q, v) {
             let expanded = self.modes[self.current].emitted_mut();
-            match expanded.map(|(emitted, held)| emitted.series(&held, order, (t, q, v))) {
+            let turns = &mut self.turns;
+            match expanded.map(|(emitted, held)| emitted.series(&held, order, (t, q, v), turns)) {
                 Some(Ok(())) => {
                     self.series_by_functions = true;
                     return Ok(false);

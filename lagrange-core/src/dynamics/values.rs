@@ -36,11 +36,10 @@ impl<T: Scalar> Dynamics<T> {
             self.take_given();
             return Ok(());
         }
-        if self.by_functions {
-            self.select(Part::Outputs);
-            self.run_outputs(t, q, v);
+        match self.by_functions {
+            true => self.run_outputs(t, q, v),
+            false => self.take_nodes(),
         }
-        self.take_nodes();
         Ok(())
     }
 
@@ -60,7 +59,8 @@ impl<T: Scalar> Dynamics<T> {
             Equations::Interpreted => Outcome::NotGiven,
             Equations::Emitted => {
                 let alone = self.guards_alone;
-                compiled.value(self.description, alone, (t, q, v), accelerations, forces)
+                let out = (&mut *accelerations, &mut *forces);
+                compiled.value(self.description, alone, (t, q, v), out, &mut self.turns)
             }
         };
         self.by_functions = outcome == Outcome::Given;
@@ -161,7 +161,7 @@ impl<T: Scalar> Dynamics<T> {
         let compiled = &self.modes[self.current];
         let outcome = match self.equations {
             Equations::Interpreted => Outcome::NotGiven,
-            Equations::Emitted => compiled.accelerations((t, q, v), accelerations),
+            Equations::Emitted => compiled.accelerations((t, q, v), accelerations, &mut self.turns),
         };
         self.by_functions = outcome == Outcome::Given;
         match outcome {
@@ -268,10 +268,8 @@ impl<T: Scalar> Dynamics<T> {
     /// Runs only the motion program at (t, q, v), for the needs held: then read [`Self::motion`].
     pub fn tape(&mut self, t: T, q: &[T], v: &[T]) {
         self.given = false;
-        self.select_outputs();
-        self.run_outputs(t, q, v);
         self.take_state(t, q, v);
-        self.take_nodes();
+        self.run_outputs(t, q, v);
     }
 
     /// What can be told of a state in which accelerations and forces cannot be had: what is made of these is no number.
@@ -288,20 +286,29 @@ impl<T: Scalar> Dynamics<T> {
         let inputs = core::mem::take(&mut self.inputs);
         let n = self.description.coordinates.len();
         let (q, v) = inputs[1..=2 * n].split_at(n);
-        self.select(Part::Outputs);
         self.run_outputs(inputs[0], q, v);
-        self.take_nodes();
         self.inputs = inputs;
     }
 
-    /// Runs the motion program of the equations in use.
-    #[inline]
+    /// Runs the motion program for what is held: as a function where the mode has functions, else as data.
     fn run_outputs(&mut self, t: T, q: &[T], v: &[T]) {
+        self.hold();
+        if self.functions().is_some() {
+            let compiled = &self.modes[self.current];
+            let held = compiled.selection(&compiled.held.motion);
+            let (constants, nodes) = (&compiled.constants, &mut self.nodes);
+            if self.system.motion(&held, constants, (t, q, v), nodes) {
+                self.run.clone_from(&compiled.held.motion);
+                return;
+            }
+        }
+        self.select_outputs();
         let interpreted = self.in_front();
         if interpreted.has_motion() {
             interpreted.place(t, q, v);
             interpreted.evaluate(Extent::Everything, MOTION);
         }
+        self.take_nodes();
     }
 
     /// The interpreted equations in use, which have been selected.

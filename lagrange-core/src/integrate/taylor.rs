@@ -289,11 +289,10 @@ pub fn differs<T: Scalar>(step: &StepPolynomial<T>, s: f64, dv: &[T], part: f64)
 
 /// Σ k f(cₖ) sᵏ⁻¹
 fn derivative_value<T: Scalar>(row: &[T], s: f64, f: impl Fn(f64) -> f64) -> f64 {
-    let mut k = row.len() as f64;
-    row[1..].iter().rev().fold(0.0, |sum, c| {
-        k -= 1.0;
-        sum * s + k * f(c.value())
-    })
+    let terms = row[1..].iter().zip(&ORDERS[1..row.len()]);
+    terms
+        .rev()
+        .fold(0.0, |sum, (c, k)| sum * s + k * f(c.value()))
 }
 
 /// What to do after a [`defect`].

@@ -36,7 +36,10 @@ impl Table {
         }
         let entry = &mut self.known[index];
         // The dynamics give the place of a mode that they no longer keep to another.
-        entry.take_if(|known| known.number != dynamics.mode_number());
+        let is_other = |known: &Watched| known.number != dynamics.mode_number();
+        if entry.as_ref().is_some_and(is_other) {
+            *entry = None;
+        }
         entry.get_or_insert_with(|| watched(dynamics))
     }
 }

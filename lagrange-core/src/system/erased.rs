@@ -7,7 +7,7 @@ use super::{Description, Selection, System};
 use crate::arithmetic::Scalar;
 use crate::declaration::Declaration;
 use crate::derivation::Derivation;
-use crate::equations::{ModeStructure, SeriesFn, ValueFn};
+use crate::equations::{Arguments, ModeStructure, SeriesFn, ValueFn};
 use core::fmt;
 use std::sync::Arc;
 
@@ -48,6 +48,9 @@ pub(crate) trait ErasedSystem<T: Scalar>: Send + Sync {
 
     /// Their constants; false if the parameters do not allow the pivots that were chosen at build time.
     fn mode_constants(&self, mode: usize, held: &Selection, signs: &[T], c: &mut [T]) -> bool;
+
+    /// The outputs of the motion program for what is held; false if they are not given.
+    fn motion(&self, held: &Selection, c: &[T], state: Arguments<'_, T>, nodes: &mut [T]) -> bool;
 }
 
 impl<T: Scalar> fmt::Debug for dyn ErasedSystem<T> {
@@ -173,5 +176,15 @@ impl<S: System> ErasedSystem<S::Scalar> for S {
         c: &mut [S::Scalar],
     ) -> bool {
         System::mode_constants(self, mode, held, signs, c)
+    }
+
+    fn motion(
+        &self,
+        held: &Selection,
+        c: &[S::Scalar],
+        state: Arguments<'_, S::Scalar>,
+        nodes: &mut [S::Scalar],
+    ) -> bool {
+        System::motion(self, held, c, state, nodes)
     }
 }

@@ -13,7 +13,7 @@ pub(crate) mod places;
 use crate::arithmetic::{Number, Scalar};
 use crate::declaration::Declaration;
 use crate::derivation::Derivation;
-use crate::equations::{ModeStructure, SeriesFn, ValueFn};
+use crate::equations::{Arguments, ModeStructure, SeriesFn, ValueFn};
 pub(crate) use crate::program::{Selection, ValueRef};
 pub use description::*;
 pub use erased::AnySystem;
@@ -70,6 +70,20 @@ pub trait System: Sized + Send + Sync + 'static {
         c: &mut [Self::Scalar],
     ) -> bool {
         let _ = (mode, held, signs, c);
+        false
+    }
+
+    /// Outputs of the motion program for what is held, from the constants `c` and a state; those that nobody asks for are left as they are. False where
+    /// one is not finite, as what a parameter that is zero leaves of a pole, or where there is no such function.
+    #[doc(hidden)]
+    fn motion(
+        &self,
+        held: &Selection,
+        c: &[Self::Scalar],
+        state: Arguments<'_, Self::Scalar>,
+        nodes: &mut [Self::Scalar],
+    ) -> bool {
+        let _ = (held, c, state, nodes);
         false
     }
 

@@ -181,8 +181,8 @@ impl<T: Scalar> Decider<T> {
         {
             return Err(error);
         }
-        self.decision.mode.clone_from(&self.best);
-        dynamics.set_mode(&self.best);
+        core::mem::swap(&mut self.decision.mode, &mut self.best);
+        dynamics.set_mode(&self.decision.mode);
         Ok(())
     }
 

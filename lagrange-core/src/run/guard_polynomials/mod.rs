@@ -291,10 +291,10 @@ impl GuardPolynomials {
 
     /// Takes the margin from guards that are clear of zero at part `end` of the step.
     pub(super) fn raise(&mut self, end: f64) {
-        let coefficients = self.coefficients.chunks_exact(self.width.max(1));
-        for (curve, c) in self.list.iter_mut().zip(coefficients) {
-            if curve.margin > 0.0 && at(c, end) > 2.0 * curve.margin {
-                curve.margin = 0.0;
+        for index in 0..self.list.len() {
+            let margin = self.list[index].margin;
+            if margin > 0.0 && at(self.curve(index), end) > 2.0 * margin {
+                self.list[index].margin = 0.0;
             }
         }
     }

@@ -1,6 +1,7 @@
 //! One operation of a tape → an expression of Rust. How values, numbers and functions are written there differs: emitted functions of modes work with
 //! several motions side by side, everything else with one scalar.
 
+use super::names::{index, local};
 use crate::plan::{Coefficient, Operation, Value};
 use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, quote};
@@ -15,6 +16,16 @@ pub trait Notation {
     fn call(&self, function: &str, x: Ident, more: Option<TokenStream>) -> TokenStream;
     /// A choice between two values.
     fn choice(&self, operation: Operation) -> TokenStream;
+}
+
+/// The value of the side that its branch is on.
+pub fn select(operation: Operation, notation: &impl Notation) -> TokenStream {
+    let Operation::Select(branch, x, y) = operation else {
+        unreachable!("only starts choose by value")
+    };
+    let (held, branch) = (local("held"), index(branch));
+    let [x, y] = [x, y].map(|value| notation.value(value));
+    quote!(if #held.branch(#branch) { #x } else { #y })
 }
 
 /// The result of an operation; one with two results gives a pair.

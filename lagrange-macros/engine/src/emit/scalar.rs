@@ -1,7 +1,7 @@
-//! Programs on plain scalars: the constants of modes, the starts, and access to the parameters.
+//! Programs on plain scalars: the constants of modes, the motion, the starts, and access to the parameters.
 
 use super::names::{self, Locals, local};
-use super::operation::{Notation, expression};
+use super::operation::{Notation, expression, select};
 use crate::model::System;
 use crate::plan::{Coefficient, Mode, Operation, Program, StartTarget, Tape, Value};
 use proc_macro2::{Ident, TokenStream};
@@ -35,15 +35,15 @@ pub fn parameter_names(system: &System) -> impl Iterator<Item = String> + '_ {
     parameters.map(|parameter| format!("p_{}", parameter.name))
 }
 
-/// A masked program whose outputs are the constants `c`.
+/// A masked program that writes its outputs into the slice `out`; what is `then` done with each value that enters one.
 pub fn masked(
     program: &Program,
     tape: &Tape,
+    (out, then): (&Ident, impl Fn(&Ident) -> TokenStream),
     locals: &Locals,
     input: impl Fn(usize) -> TokenStream,
 ) -> TokenStream {
     let system = &program.equations.system;
-    let c = local("c");
     let outputs = names::index(tape.outputs);
     let needs = names::needs(program.equations.needs.len());
     let crossing = names::crossing(tape);
@@ -63,10 +63,11 @@ pub fn masked(
         );
         let writes = block.writes.iter().map(|write| {
             let (output, value) = (names::index(write.output), locals.value(write.value));
+            let then = then(&value);
             match write.mode {
-                Mode::Set => quote!(#c[#output] = #value;),
-                Mode::Add => quote!(#c[#output] += #value;),
-                Mode::Sub => quote!(#c[#output] -= #value;),
+                Mode::Set => quote!(#out[#output] = #value; #then),
+                Mode::Add => quote!(#out[#output] += #value; #then),
+                Mode::Sub => quote!(#out[#output] -= #value; #then),
             }
         });
         let body = quote!(#steps #(#writes)*);
@@ -77,7 +78,7 @@ pub fn masked(
         quote!(if #condition { #body })
     });
     quote! {
-        let #c = first_mut::<#outputs, _>(#c);
+        let #out = first_mut::<#outputs, _>(#out);
         #needs
         #(#inputs)*
         #(let mut #declared = <Self::Scalar as ::core::default::Default>::default();)*
@@ -198,10 +199,12 @@ impl Notation for OfScalar<'_> {
     }
 
     fn choice(&self, operation: Operation) -> TokenStream {
-        let Operation::Choose(guard, x, y) = operation else {
-            unreachable!("only tapes select by branch")
-        };
-        let [guard, x, y] = [guard, x, y].map(|value| self.value(value));
-        quote!(if Scalar::value(#guard) >= 0.0 { #x } else { #y })
+        match operation {
+            Operation::Choose(guard, x, y) => {
+                let [guard, x, y] = [guard, x, y].map(|value| self.value(value));
+                quote!(if Scalar::value(#guard) >= 0.0 { #x } else { #y })
+            }
+            _ => select(operation, self),
+        }
     }
 }

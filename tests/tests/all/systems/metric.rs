@@ -1,6 +1,7 @@
 //! Projections onto constraints: least in the mass metric, and made wherever rows join.
 
 use super::state;
+use lagrange_core::__private::equations::Turn;
 use lagrange_core::__private::program::Selection;
 use lagrange_core::prelude::*;
 use lagrange_core::system::System;
@@ -128,8 +129,7 @@ fn the_change_of_the_velocities_that_functions_give_is_the_least_in_the_mass_met
         let mut four = || -> Vec<f64> { (0..4).map(|_| random.between(-1.0, 1.0)).collect() };
         let (q, v) = (four(), four());
         let mut values = vec![0.0; structure.values];
-        values[..4].copy_from_slice(&q);
-        values[4..8].copy_from_slice(&v);
+        let mut turns = vec![Turn::none(); structure.turns];
         let mut rates = [0.0; 4];
         let value = Plank::mode_values::<f64>()[at];
         assert!(value(
@@ -137,7 +137,8 @@ fn the_change_of_the_velocities_that_functions_give_is_the_least_in_the_mass_met
             &held,
             (0.0, &q, &v),
             &mut rates,
-            Some(&mut values)
+            Some(&mut values),
+            &mut turns
         ));
         let equations = Equations::of(&plank, &mode, &q, &v);
         let mass = DMatrix::from_fn(4, 4, |i, j| equations.mass[i][j]);

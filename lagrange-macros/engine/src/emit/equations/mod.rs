@@ -49,6 +49,7 @@ pub fn equations(program: &Program) -> TokenStream {
         ));
         series_entries.push(quote!(across::<#one_series, #number> as SeriesFn<#number>));
     }
+    let motion = motion(program);
     let (mode, held, signs, c) = (local("mode"), local("held"), local("signs"), local("c"));
     // Clippy looks for every lint at every expression, although what a derive has written is allowed everything: minutes for code that nobody
     // wrote. It sees the defaults of the trait.
@@ -73,10 +74,12 @@ pub fn equations(program: &Program) -> TokenStream {
             }
         }
 
+        #motion
+
         #unless_linted
         fn mode_values<#number: #core::__private::Number>(
         ) -> &'static [#core::__private::equations::ValueFn<#number>] {
-            use #core::__private::equations::{Arguments, ValueFn, first, first_mut};
+            use #core::__private::equations::{Arguments, Turn, ValueFn, first, first_mut};
             use #core::__private::{Number, program::Selection};
             #(#values)*
             const { &[#(#value_entries),*] }
@@ -86,8 +89,8 @@ pub fn equations(program: &Program) -> TokenStream {
         fn mode_series<#number: #core::__private::Number>(
         ) -> &'static [#core::__private::equations::SeriesFn<#number>] {
             use #core::__private::equations::{
-                Arguments, Factors, INVERSES, ModeSeries, Refused, Registers, Row, STRIDE, SeriesFn, across,
-                first, first_mut,
+                Arguments, Factors, INVERSES, Memory, ModeSeries, Refused, Registers, Row, STRIDE, SeriesFn,
+                across, first, first_mut,
             };
             use #core::__private::{Number, program::Selection};
             #(#series)*
@@ -127,6 +130,7 @@ fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> To
     }
     let count = index(mode.constants.outputs);
     let (rows, products) = (index(plan.rows), index(plan.groups));
+    let turns = index(writer::turns_of(mode).count());
     let (gives_rows, numbers) = (mode.gives_rows(), index(value::numbers(mode, plan)));
     quote! {
         #core::__private::equations::ModeStructure {
@@ -137,10 +141,51 @@ fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> To
             pins: &[#(#pins),*],
             rows: #rows,
             products: #products,
+            turns: #turns,
             motion: &[#(#motion),*],
             report: &[#(#report),*],
             gives_rows: #gives_rows,
             values: #numbers,
+        }
+    }
+}
+
+/// `fn motion`: the motion program as a straight line.
+fn motion(program: &Program) -> TokenStream {
+    let system = &program.equations.system;
+    let core = &system.core;
+    let n = system.coordinates.len();
+    let (held, c, nodes) = (local("held"), local("c"), local("nodes"));
+    let (t, q, v) = (local("t"), local("q"), local("v"));
+    let input = |at: usize| {
+        let (of_state, at) = match at {
+            0 => return quote!(#t),
+            at if at <= n => (&q, index(at - 1)),
+            at => (&v, index(at - 1 - n)),
+        };
+        quote!(#of_state[#at])
+    };
+    let locals = Locals::new(writer::state_names(system)).naming_pairs(&program.motion);
+    let sum = local("sum");
+    let out = (&nodes, |value: &_| quote!(#sum += #value;));
+    let body = scalar::masked(program, &program.motion, out, &locals, input);
+    let (coordinates, constants) = (index(n), index(program.constants.outputs));
+    quote! {
+        #[cfg(not(clippy))]
+        fn motion(
+            &self,
+            #held: &#core::__private::program::Selection,
+            #c: &[Self::Scalar],
+            (#t, #q, #v): #core::__private::equations::Arguments<'_, Self::Scalar>,
+            #nodes: &mut [Self::Scalar],
+        ) -> bool {
+            use #core::__private::equations::{first, first_mut};
+            use #core::arithmetic::Scalar;
+            let (#q, #v) = (first::<#coordinates, _>(#q), first::<#coordinates, _>(#v));
+            let #c = first::<#constants, _>(#c);
+            let mut #sum = <Self::Scalar as ::core::default::Default>::default();
+            #body
+            Scalar::value(#sum).is_finite()
         }
     }
 }
@@ -165,8 +210,9 @@ fn mode_constants(program: &Program, mode: &ModeProgram) -> TokenStream {
         [of("direction"), of("pressing")]
     });
     let locals = Locals::new(scalar::parameter_names(system).chain(signs_of));
-    let body = scalar::masked(program, &mode.constants, &locals, input);
     let c = local("c");
+    let out = (&c, |_: &_| TokenStream::new());
+    let body = scalar::masked(program, &mode.constants, out, &locals, input);
     let place = |place: &ValueRef| match place {
         ValueRef::Constant(at) => {
             let at = index(*at);

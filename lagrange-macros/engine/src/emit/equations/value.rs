@@ -22,7 +22,7 @@ pub fn function(
     let writer = Writer::new(&program.equations.system, mode, names::crossing(&mode.tape));
     let elimination = Elimination::new(&writer, &mode.results.system);
     let (rates, values) = (local("rates"), local("values"));
-    let (c, held) = (local("c"), local("held"));
+    let (c, held, turns) = (local("c"), local("held"), local("turns"));
     let (t, q, v) = (local("t"), local("q"), local("v"));
     let number = &writer.number;
     let prologue = writer.prologue();
@@ -41,6 +41,7 @@ pub fn function(
             (#t, #q, #v): Arguments<'_, #number>,
             #rates: &mut [#number],
             #values: ::core::option::Option<&mut [#number]>,
+            #turns: &mut [Turn<#number>],
         ) -> bool {
             #prologue
             let #rates = first_mut::<#count, _>(#rates);
@@ -180,12 +181,12 @@ fn projection(
     quote!(if #condition { #solve #(#store)* })
 }
 
-/// What guards read beside the state and the forces, and in which row of a series it stands.
+/// What guards read beside the forces, and in which row of a series it stands.
 fn kept(mode: &ModeProgram, plan: &Plan) -> SortedMap<ValueRef, usize> {
     let extras = mode.results.extras.iter();
     extras
         .filter_map(|extra| Some((extra.place, plan.extra_row(mode, extra)?)))
-        .filter(|(_, row)| *row > zero_row(mode))
+        .filter(|(_, row)| *row < force_row(mode, 0) || *row > zero_row(mode))
         .collect()
 }
 

@@ -1,7 +1,7 @@
 //! Order 0: every operation as a line of Rust on numbers.
 
 use super::super::names::{self, Locals, index, local, plain};
-use super::super::operation::{Notation, expression};
+use super::super::operation::{Notation, expression, select};
 use crate::model::System;
 use crate::plan::mode::ModeProgram;
 use crate::plan::{Block, Coefficient, Mode, Operation, Step, Value, ValueRef};
@@ -28,13 +28,19 @@ pub fn number(system: &System) -> Ident {
     plain(if taken { "M" } else { "N" })
 }
 
-/// What the inputs of a mode are called: `q_theta`, `v_theta`, `a_theta` whether it is an unknown of the linear system or read after it
-/// has been solved, and forces by their rows.
-fn locals(system: &System, mode: &ModeProgram) -> Locals {
+/// What time, positions and velocities are called.
+pub fn state_names(system: &System) -> impl Iterator<Item = String> + '_ {
     let of_coordinates = |kind: char| {
         let coordinates = system.coordinates.iter();
         coordinates.map(move |coordinate| format!("{kind}_{}", coordinate.name.text))
     };
+    let time = core::iter::once("t_now".to_owned());
+    time.chain(of_coordinates('q')).chain(of_coordinates('v'))
+}
+
+/// What the inputs of a mode are called: `q_theta`, `v_theta`, `a_theta` whether it is an unknown of the linear system or read after it
+/// has been solved, and forces by their rows.
+fn locals(system: &System, mode: &ModeProgram) -> Locals {
     let writes = mode.tape.blocks.iter().flat_map(|block| &block.writes);
     let written: SortedMap<usize, Value> =
         writes.map(|write| (write.output, write.value)).collect();
@@ -63,13 +69,13 @@ fn locals(system: &System, mode: &ModeProgram) -> Locals {
         .contacts
         .iter()
         .map(|item| format!("f_{}", item.name.text));
-    let time = core::iter::once("t_now".to_owned());
-    let state = time.chain(of_coordinates('q')).chain(of_coordinates('v'));
-    let results = of_coordinates('a')
+    let accelerations = system.coordinates.iter();
+    let accelerations = accelerations.map(|coordinate| format!("a_{}", coordinate.name.text));
+    let results = accelerations
         .chain(constraints)
         .chain(contacts)
         .chain(slips);
-    Locals::new(state.chain(unknowns).chain(results)).naming_pairs(&mode.tape)
+    Locals::new(state_names(system).chain(unknowns).chain(results)).naming_pairs(&mode.tape)
 }
 
 /// Numbers of one motion or of several; the trait in scope says what their functions are.
@@ -103,12 +109,7 @@ impl Notation for Writer<'_> {
     }
 
     fn choice(&self, operation: Operation) -> TokenStream {
-        let Operation::Select(branch, x, y) = operation else {
-            unreachable!("only starts choose by value")
-        };
-        let (held, branch) = (local("held"), index(branch));
-        let [x, y] = [x, y].map(|value| self.value(value));
-        quote!(if #held.branch(#branch) { #x } else { #y })
+        select(operation, self)
     }
 }
 
@@ -144,12 +145,14 @@ impl<'a> Writer<'a> {
         let (q, v) = (local("q"), local("v"));
         let (positions, velocities) = (names(1), names(1 + n));
         let count = index(self.mode.constants.outputs);
+        let (turns, angles) = (local("turns"), index(turns_of(self.mode).count()));
         let time = read.contains(&Value(0)).then(|| quote!(let #time = #t;));
         quote! {
             #time
             let #positions = first(#q);
             let #velocities = first(#v);
             let #c = first::<#count, _>(#c);
+            let #turns = first_mut::<#angles, _>(#turns);
         }
     }
 
@@ -197,7 +200,10 @@ impl<'a> Writer<'a> {
 
     /// A step; its values are bound.
     pub fn step(&self, step: &Step) -> TokenStream {
-        let result = expression(step.operation, self);
+        let result = match step.operation {
+            Operation::SinCos(angle) => self.sin_cos(step.value, angle),
+            operation => expression(operation, self),
+        };
         if step.operation.values() == 1 {
             return self.bind(step.value, result);
         }
@@ -210,6 +216,17 @@ impl<'a> Writer<'a> {
             (false, false) => quote!(let (#one, #two) = #result;),
             _ => quote!((#one, #two) = #result;),
         }
+    }
+
+    /// Sine and cosine, which are the first of these two values, from what is kept of the last angle.
+    fn sin_cos(&self, value: Value, angle: Value) -> TokenStream {
+        let (turns, angle) = (local("turns"), self.value(angle));
+        let at = index(
+            turns_of(self.mode)
+                .take_while(|turn| *turn != value)
+                .count(),
+        );
+        quote!(#turns[#at].sin_cos(#angle))
     }
 
     /// The writes of a block that enter sums.
@@ -228,6 +245,13 @@ impl<'a> Writer<'a> {
         });
         quote!(#(#lines)*)
     }
+}
+
+/// The sines that a mode has, each with its cosine.
+pub fn turns_of(mode: &ModeProgram) -> impl Iterator<Item = Value> {
+    let steps = mode.tape.blocks.iter().flat_map(|block| &block.steps);
+    let turns = steps.filter(|step| matches!(step.operation, Operation::SinCos(_)));
+    turns.map(|step| step.value)
 }
 
 /// Outputs that several writes enter.

@@ -66,6 +66,7 @@ pub fn implementation(
     let (c, held, order, rows) = (local("c"), local("held"), local("order"), local("rows"));
     let (t, q, v, registers) = (local("t"), local("q"), local("v"), local("registers"));
     let (products, newest, weight) = (local("products"), local("newest"), local("weight"));
+    let turns = local("turns");
     let groups = index(plan.groups);
     let memory = (plan.groups > 0).then(
         || quote!(let #products = first_mut::<STRIDE, _>(#products.as_chunks_mut::<#groups>().0);),
@@ -85,8 +86,7 @@ pub fn implementation(
                 #held: &Selection,
                 #order: usize,
                 (#t, #q, #v): Arguments<'_, #number>,
-                #rows: &mut [Row<#number>],
-                #products: &mut [Factors<#number>],
+                (#rows, #products, #turns): Memory<'_, #number>,
             ) -> #result {
                 #prologue
                 #row_names
