@@ -12,7 +12,8 @@
 //! (the equation is of the kind of τ² y′ = τ − y) and good for a first step.
 //!
 //! A slip may have one direction only, that of a foot about another one that sticks. A turn then does nothing to ṡ × u₀, and where the slip
-//! begins as τ² as well coefficient k + 1 says nothing of ψₖ: coefficient k + 2 does. Of several slips this may be so of combinations.
+//! begins as τ² as well coefficient k + 1 says nothing of ψₖ: coefficient k + 2 does. Of several slips this may be so of combinations. Where loads grow
+//! from zero as τᵖ the slip begins as τᵖ⁺¹, and it is coefficient k + 1 + p that does.
 
 use super::shape::Extent;
 use super::{Dynamics, EvaluationError};
@@ -327,15 +328,41 @@ impl<T: Scalar> Dynamics<T> {
     /// # Errors
     /// The same as [`Self::series`].
     pub(crate) fn bends(&mut self, t: T, q: &[T], v: &[T]) -> Result<Vec<T>, EvaluationError> {
+        self.expand_straight(2, t, q, v)?;
+        let count = self.beginnings();
+        Ok((0..count).map(|i| self.crossed(i, 2)).collect())
+    }
+
+    /// Coefficient `order` of the slip of friction `f`, for directions that do not turn.
+    ///
+    /// # Errors
+    /// The same as [`Self::series`].
+    pub(crate) fn slip_ahead(
+        &mut self,
+        f: usize,
+        order: usize,
+        t: T,
+        q: &[T],
+        v: &[T],
+    ) -> Result<[T; 2], EvaluationError> {
+        self.expand_straight(order, t, q, v)?;
+        Ok(self.slip_coefficient(f, order))
+    }
+
+    fn expand_straight(
+        &mut self,
+        order: usize,
+        t: T,
+        q: &[T],
+        v: &[T],
+    ) -> Result<(), EvaluationError> {
         (self.series_by_functions, self.by_functions) = (false, false);
         self.run(t, q, v, Extent::Series, true)?;
         let expand = |this: &mut Self, order| {
             this.begin_straight();
             this.expand_anew(order)
         };
-        self.with_roots(2, expand)?;
-        let count = self.beginnings();
-        Ok((0..count).map(|i| self.crossed(i, 2)).collect())
+        self.with_roots(order, expand)
     }
 
     /// How many slips begin.
@@ -441,11 +468,13 @@ impl<T: Scalar> Dynamics<T> {
             } = &mut self.slip_directions;
             open.find(matrix, strength, NO_ANSWER);
             let higher = !open.is_empty();
-            if higher && k + 2 > MAX_ORDER {
-                return Ok(());
-            }
-            if higher {
-                self.ask_of_next(k)?;
+            let mut ahead = k + 1;
+            while higher && (ahead == k + 1 || self.says_nothing()) {
+                ahead += 1;
+                if ahead > MAX_ORDER {
+                    return Ok(());
+                }
+                self.ask_ahead(k, ahead)?;
             }
             let SlipDirections { matrix, right, .. } = &mut self.slip_directions;
             if !solve_small(matrix, right) {
@@ -493,14 +522,22 @@ impl<T: Scalar> Dynamics<T> {
         }
     }
 
-    /// Puts combinations of the next coefficients, k + 2, in the place of equations whose combinations vanish.
-    fn ask_of_next(&mut self, k: usize) -> Result<(), EvaluationError> {
+    /// Whether an equation whose combination vanishes has nothing in its place.
+    fn says_nothing(&self) -> bool {
+        let SlipDirections { open, matrix, .. } = &self.slip_directions;
+        let count = self.beginnings();
+        let mut rows = open.iter();
+        rows.any(|(row, _)| matrix[row * count..][..count].iter().all(|x| x.value() == 0.0))
+    }
+
+    /// Puts combinations of later coefficients, `ahead`, in the place of equations whose combinations vanish.
+    fn ask_ahead(&mut self, k: usize, ahead: usize) -> Result<(), EvaluationError> {
         let open = self.slip_directions.open.clone();
         let count = self.beginnings();
         let next = |dynamics: &mut Self| -> Result<Vec<T>, EvaluationError> {
-            dynamics.keep_lengths(k + 1);
-            dynamics.expand_anew(k + 2)?;
-            Ok((0..count).map(|i| dynamics.crossed(i, k + 2)).collect())
+            (k + 1..ahead).for_each(|j| dynamics.keep_lengths(j));
+            dynamics.expand_anew(ahead)?;
+            Ok((0..count).map(|i| dynamics.crossed(i, ahead)).collect())
         };
         let sum = |weights: &[T], terms: &[T]| {
             let mut sum = T::zero();
@@ -514,7 +551,7 @@ impl<T: Scalar> Dynamics<T> {
         let turns = (0..count).flat_map(|i| self.slip_directions.series[self.beginning(i)]);
         let size = turns.fold(1.0_f64, |m, u| m.max(dot(u, u).value().sqrt()));
         let size = before.iter().fold(size, |m, x| m.max(x.value().abs()));
-        let terms = (0..count).map(|i| self.terms_crossed(i, k + 2).1);
+        let terms = (0..count).map(|i| self.terms_crossed(i, ahead).1);
         let part = T::from_f64(match k {
             1 => SMALL * size,
             _ => terms.fold(size, f64::max),
@@ -534,7 +571,7 @@ impl<T: Scalar> Dynamics<T> {
                 self.slip_directions.matrix[row * count + j] = sum(weights, &changes);
             }
         }
-        self.keep_lengths(k + 1);
+        (k + 1..ahead).for_each(|j| self.keep_lengths(j));
         Ok(())
     }
 }

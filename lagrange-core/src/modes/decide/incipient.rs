@@ -1,7 +1,8 @@
 //! Where a slip of two components begins: ṡ ∥ u, for the friction that points against u.
 //!
 //! ṡ(u) × u = 0 with ṡ·u > 0. Where the slip begins smoothly (equal coefficients of friction) ṡ vanishes at the answer, but
-//! ṡ × u still changes its sign there, unless the slip can have one direction only: then what it grows by next, s̈ × u, decides.
+//! ṡ × u still changes its sign there, unless the slip can have one direction only: then what it grows by next, s̈ × u, decides. So it does where all
+//! forces vanish at the instant, as under a load that grows from zero: there the first coefficient of s that does not vanish takes the place of ṡ.
 
 use super::Decider;
 use super::questions::{concerns, row_acceleration};
@@ -16,6 +17,8 @@ use crate::modes::redundant::RedundantForces;
 use crate::modes::table::Table;
 use core::f64::consts::TAU;
 
+/// A slip that begins with no coefficient up to this one is not looked for.
+const LATEST: usize = 4;
 /// Directions that are tried for one slip.
 const TRIES: usize = 16;
 /// Step of differences between angles.
@@ -37,7 +40,7 @@ const RESIDUES: f64 = 10.0;
 /// Of what makes ṡ, rounding leaves no more than this share.
 const ROUNDING: f64 = 1e-12;
 
-/// ṡ in the frame of u: along it and across.
+/// ṡ, or a later coefficient of the slip, in the frame of u: along it and across.
 #[derive(Clone, Copy, Debug)]
 struct Turn {
     along: f64,
@@ -99,7 +102,7 @@ impl<T: Scalar> Decider<T> {
             dynamics.set_extra_needs(&table.of(dynamics).deciding);
             let alone = self.beginning.frictions.len() == 1;
             let found = match alone {
-                true => self.look_around(dynamics, moment)?,
+                true => self.look_all_around(dynamics, moment)?,
                 false => Around::Flat,
             };
             let found = match found {
@@ -198,17 +201,32 @@ impl<T: Scalar> Decider<T> {
         }
     }
 
-    /// All directions of one slip: that nearest to its angle.
-    fn look_around(
+    /// All directions of one slip: that nearest to its angle, by the first coefficient that does not vanish.
+    fn look_all_around(
         &mut self,
         dynamics: &mut Dynamics<T>,
         moment: EvaluationPoint<'_, T>,
     ) -> Result<Around, EvaluationError> {
+        for order in 1..=LATEST {
+            if let Some(around) = self.look_around(dynamics, moment, order)? {
+                return Ok(around);
+            }
+        }
+        Ok(Around::Nothing)
+    }
+
+    /// The same by coefficient `order`; nothing if it vanishes in all directions.
+    fn look_around(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        moment: EvaluationPoint<'_, T>,
+        order: usize,
+    ) -> Result<Option<Around>, EvaluationError> {
         let (f, guess) = (self.beginning.frictions[0], self.beginning.angles[0]);
         let mut failure = None;
         // In some directions friction may lock itself.
-        let mut turn = |angle: f64| {
-            turn_of(dynamics, moment, f, angle).unwrap_or_else(|error| {
+        let mut turn = |dynamics: &mut Dynamics<T>, angle: f64| {
+            turn_of(dynamics, moment, f, angle, order).unwrap_or_else(|error| {
                 failure = Some(error);
                 NO_TURN
             })
@@ -219,25 +237,33 @@ impl<T: Scalar> Decider<T> {
         let mut roots = [(0.0, f64::NEG_INFINITY); TRIES + 2];
         let (between, only) = roots.split_at_mut(TRIES);
         let (mut largest, mut fastest) = (0.0_f64, (0.0, 0.0));
-        let mut low = turn(first);
+        let mut low = turn(dynamics, first);
         for (k, root) in between.iter_mut().enumerate() {
             let from = first + step * k as f64;
-            let high = turn(from + step);
+            let high = turn(dynamics, from + step);
             largest = largest.max(high.along.abs()).max(high.across.abs());
             let speed = high.along.hypot(high.across);
             if speed > fastest.0 {
                 fastest = (speed, from + step - high.across.atan2(high.along));
             }
             if low.across * high.across <= 0.0 {
+                let mut turn = |angle| turn(dynamics, angle);
                 let at = sharpen(&mut turn, (from, low), (from + step, high));
                 *root = (at, turn(at).along);
             }
             low = high;
         }
+        let vanishes = match order {
+            1 => largest <= ROUNDING * size_of(dynamics, f),
+            _ => largest == 0.0,
+        };
+        if vanishes {
+            return failure.map_or(Ok(None), Err);
+        }
         // A slip that can have one direction only, forth and back, may have two roots between two tries.
         for (root, back) in only.iter_mut().zip([0.0, 0.5]) {
             let at = fastest.1 + TAU * back;
-            let Turn { along, across } = turn(at);
+            let Turn { along, across } = turn(dynamics, at);
             if across.abs() <= ROUNDING * largest {
                 *root = (at, along);
             }
@@ -251,15 +277,17 @@ impl<T: Scalar> Decider<T> {
         others.extend(begins(-self.beginning.nothing).map(|(at, _)| *at));
         others.sort_by(|a, b| far(*b).total_cmp(&far(*a)));
         let Some(nearest) = others.pop() else {
-            return failure.map_or(Ok(Around::Nothing), Err);
+            return failure.map_or(Ok(Some(Around::Nothing)), Err);
         };
         self.forks = begins(NOTHING).count() > 1;
         self.beginning.angles[0] = nearest;
-        let change = (turn(nearest + SMALL).across - turn(nearest).across) / SMALL;
-        Ok(match change.abs() <= NOTHING * largest {
+        let [here, beside] = [nearest, nearest + SMALL].map(|at| turn(dynamics, at).across);
+        let change = (beside - here) / SMALL;
+        let flat = order == 1 && change.abs() <= NOTHING * largest;
+        Ok(Some(match flat {
             true => Around::Flat,
             false => Around::Direction,
-        })
+        }))
     }
 }
 
@@ -477,24 +505,34 @@ fn differences(a: &[[f64; 2]], b: &[[f64; 2]]) -> Vec<f64> {
         .collect()
 }
 
-/// ṡ of friction `f` if it begins to slip at an angle.
+/// Coefficient `order` of the slip of friction `f` if it begins at an angle.
 fn turn_of<T: Scalar>(
     dynamics: &mut Dynamics<T>,
     moment: EvaluationPoint<'_, T>,
     f: usize,
     angle: f64,
+    order: usize,
 ) -> Result<Turn, EvaluationError> {
+    let EvaluationPoint { t, q, v, .. } = moment;
     let (y, x) = angle.sin_cos();
     dynamics.set_slip_direction(f, [x, y].map(T::from_f64));
-    dynamics.value(moment.t, moment.q, moment.v)?;
-    Ok(frame_of(dynamics, f))
+    if order == 1 {
+        dynamics.value(t, q, v)?;
+        return Ok(frame_of(dynamics, f));
+    }
+    let slip = dynamics.slip_ahead(f, order, t, q, v)?;
+    Ok(in_frame(slip.map(|s| s.value()), [x, y]))
 }
 
 /// ṡ of friction `f` in the frame of its slip direction, at the last value.
 fn frame_of<T: Scalar>(dynamics: &Dynamics<T>, f: usize) -> Turn {
     let row = dynamics.description().frictions[f].row;
-    let [x, y] = dynamics.slip_direction(f).map(|x| x.value());
-    let [a, b] = [row, row + 1].map(|row| row_acceleration(row, dynamics));
+    let slip = [row, row + 1].map(|row| row_acceleration(row, dynamics));
+    in_frame(slip, dynamics.slip_direction(f).map(|x| x.value()))
+}
+
+/// A coefficient of a slip in the frame of its direction.
+fn in_frame([a, b]: [f64; 2], [x, y]: [f64; 2]) -> Turn {
     Turn {
         along: a * x + b * y,
         across: a * y - b * x,
