@@ -61,13 +61,19 @@ impl<T: Scalar> Run<T> {
         if turn > known || curves.is_lowered(guard) {
             return None;
         }
-        let value = self.value_at(index, turn);
-        let rounding = match guard {
+        let (value, rounding) = match guard {
             Guard::Gap(contact) => {
+                let value = self.value_at(index, turn);
                 let off = self.largest_gap(|c| self.now.mode.contacts[c]);
-                self.rounding_of_gap(contact).max(LEVER * off)
+                (value, self.rounding_of_gap(contact).max(LEVER * off))
             }
-            _ => (self.locator.polynomials).rounding(value.abs(), guard, &self.dynamics),
+            _ => {
+                // A track that only reaches to its edge is left there by as much as the motion is off it.
+                self.evaluate_onto_constraints(turn).ok()?;
+                let curves = &self.locator.polynomials;
+                let value = curves.value(index, &self.now.mode, &self.dynamics);
+                (value, curves.rounding(value.abs(), guard, &self.dynamics))
+            }
         };
         (-value <= rounding).then_some(depth)
     }
