@@ -527,7 +527,11 @@ impl<T: Scalar> Dynamics<T> {
         let SlipDirections { open, matrix, .. } = &self.slip_directions;
         let count = self.beginnings();
         let mut rows = open.iter();
-        rows.any(|(row, _)| matrix[row * count..][..count].iter().all(|x| x.value() == 0.0))
+        rows.any(|(row, _)| {
+            matrix[row * count..][..count]
+                .iter()
+                .all(|x| x.value() == 0.0)
+        })
     }
 
     /// Puts combinations of later coefficients, `ahead`, in the place of equations whose combinations vanish.

@@ -11,6 +11,7 @@ use crate::dynamics::Dynamics;
 use crate::error::Error;
 use crate::integrate::taylor::{self, Verdict};
 use crate::integrate::{onto_step, powers_of};
+use crate::trajectory::State;
 
 /// Where rounding hides how a guard begins, the step is made shorter by this.
 const CLOSER_LOOK: f64 = 0.1;
@@ -31,7 +32,7 @@ const BRIEF: f64 = 1e-4;
 const MOMENT: f64 = 1e-7;
 
 /// Guards that ask for steps shorter than this share of what the motion allows may be lost in rounding.
-const SHORT: f64 = 1e-3;
+const SHORT: f64 = 0.1;
 
 /// So many units of rounding are what positions are off by at least.
 const ULPS: f64 = 16.0;
@@ -372,72 +373,83 @@ impl<T: Scalar> Run<T> {
 
     /// How far the guards are off there.
     pub(super) fn guard_defect(&mut self, hit: &Hit, looked: f64) -> f64 {
-        let defect = self.guard_defect_beyond([0.0; 2], hit, looked);
+        let defect = self.guard_defect_beyond(0.0, &[], hit, looked);
         if defect <= 1.0 {
             return defect;
         }
         let blur = self.blur_of_directions().max(self.locator.blur);
         let defect = match blur {
             0.0 => defect,
-            blur => self.guard_defect_beyond([blur, 0.0], hit, looked),
+            blur => self.guard_defect_beyond(blur, &[], hit, looked),
         };
-        let h = self.stepper.step.h.value();
-        let short = |(moves, _)| h < SHORT * moves;
-        if defect <= 1.0 || !self.longest_series().is_some_and(short) {
+        if defect <= 1.0 || !self.is_short() {
             return defect;
         }
-        match self.rounding_of_forces(looked) {
-            0.0 => defect,
-            rounding => self.guard_defect_beyond([blur, rounding], hit, looked),
-        }
+        let rounding = self.rounding_of_guards(looked);
+        self.guard_defect_beyond(blur, &rounding, hit, looked)
     }
 
-    /// The same where forces are known to within `blur` only, relative; of those at their limit, relative to what makes them; and to within what
-    /// rounding of positions makes of them.
-    fn guard_defect_beyond(&mut self, [blur, rounding]: [f64; 2], hit: &Hit, looked: f64) -> f64 {
+    /// Whether the step at hand is much shorter than the motion allows.
+    fn is_short(&self) -> bool {
+        let h = self.stepper.step.h.value();
+        self.longest_series()
+            .is_some_and(|(moves, _)| h < SHORT * moves)
+    }
+
+    /// The same where forces are known to within `blur` only, relative; of those at their limit, relative to what makes them; and guards to within
+    /// what `rounding` makes of them, if that is known.
+    fn guard_defect_beyond(&mut self, blur: f64, rounding: &[f64], hit: &Hit, looked: f64) -> f64 {
         let tolerance = self.settings.tolerance;
         self.locator.polynomials.defect(
             &mut self.dynamics,
             &self.now.mode,
             looked,
-            [tolerance, blur, rounding],
+            [tolerance, blur],
+            rounding,
             self.locator.known(hit),
         )
     }
 
-    /// What rounding of the positions at part `looked` of the step makes of the forces that guards read, as far as guesses say: positions may be counted
-    /// from far away. `dynamics` and `scratch` end as they were.
-    fn rounding_of_forces(&mut self, looked: f64) -> f64 {
-        let forces = |run: &Self| {
+    /// What rounding of the state at part `looked` of the step makes of each guard, as far as guesses say: positions may be counted from far away, and springs
+    /// be stiff. Nothing is known where that cannot be evaluated. `dynamics` and `scratch` end as they were.
+    fn rounding_of_guards(&mut self, looked: f64) -> Vec<f64> {
+        let values = |run: &mut Self| {
             let curves = &run.locator.polynomials;
-            curves.values_of_forces(&run.now.mode, &run.dynamics)
+            curves.values(&run.now.mode, &mut run.dynamics)
         };
-        let exact = forces(self);
-        let mut most = 0.0_f64;
+        let exact = values(self);
+        let mut most = vec![0.0_f64; exact.len()];
         for alternates in [false, true] {
             self.state_at_end(looked);
-            for (j, q) in self.stepper.scratch.q.iter_mut().enumerate() {
+            let State { q, v, .. } = &mut self.stepper.scratch;
+            for (j, x) in q.iter_mut().chain(v).enumerate() {
                 let sign = if alternates && j % 2 == 1 { -1.0 } else { 1.0 };
-                *q *= T::from_f64(1.0 + sign * ULPS * epsilon::<T>());
+                *x *= T::from_f64(1.0 + sign * ULPS * epsilon::<T>());
             }
             if self.evaluate_scratch(looked).is_ok() {
-                let changes = forces(self).into_iter().zip(&exact);
-                most = changes.fold(most, |most, (x, y)| most.max((x - y).abs()));
+                for (most, (x, y)) in most.iter_mut().zip(values(self).iter().zip(&exact)) {
+                    *most = most.max((x - y).abs());
+                }
             }
         }
         match self.evaluate_end(looked) {
             Ok(()) => most,
-            Err(_) => 0.0,
+            Err(_) => Vec::new(),
         }
     }
 
     /// The same as far as a shorter step makes it smaller.
     fn guard_truncation(&mut self, hit: &Hit, looked: f64) -> f64 {
+        let rounding = match self.is_short() {
+            true => self.rounding_of_guards(looked),
+            false => Vec::new(),
+        };
         self.locator.polynomials.truncation(
             &mut self.dynamics,
             &self.now.mode,
             looked,
             self.settings.tolerance,
+            &rounding,
             self.locator.known(hit),
         )
     }

@@ -52,8 +52,9 @@ impl GuardPolynomials {
             })
     }
 
-    /// How far the polynomials are off at part `s` of the step, in units of what is allowed by the tolerance and, of forces, by their blur and rounding;
-    /// `dynamics` holds the values of the state there, `known` tells of a guard whether this is its root, and how large what makes it is at least.
+    /// How far the polynomials are off at part `s` of the step, in units of what is `allowed` by the tolerance and, of forces, by their blur, and of what
+    /// `rounding` of the state makes of each, if that is known; `dynamics` holds the values of the state there, `known` tells of a guard whether this is its
+    /// root, and how large what makes it is at least.
     ///
     /// The step is chosen for the coordinates, but a guard is a function of them whose series may converge no further than
     /// a part of it: in free flight the coordinates are polynomials, the distance √(x² + y²) is not. Where the flight passes
@@ -64,7 +65,8 @@ impl GuardPolynomials {
         dynamics: &mut Dynamics<T>,
         mode: &Mode,
         s: f64,
-        allowed: [f64; 3],
+        allowed: [f64; 2],
+        rounding: &[f64],
         known: impl Fn(Guard) -> (bool, f64),
     ) -> f64 {
         let ratio = |off: GuardError| {
@@ -74,7 +76,7 @@ impl GuardPolynomials {
                 false => ratio,
             }
         };
-        let errors = self.errors(dynamics, mode, s, allowed, known);
+        let errors = self.errors(dynamics, mode, s, allowed, rounding, known);
         errors.map(ratio).fold(0.0, worse)
     }
 
@@ -86,9 +88,10 @@ impl GuardPolynomials {
         mode: &Mode,
         s: f64,
         tolerance: f64,
+        rounding: &[f64],
         known: impl Fn(Guard) -> (bool, f64),
     ) -> f64 {
-        let errors = self.errors(dynamics, mode, s, [tolerance, 0.0, 0.0], known);
+        let errors = self.errors(dynamics, mode, s, [tolerance, 0.0], rounding, known);
         let ratios = errors.map(|off| (off.error - off.rounding) / off.allowed);
         ratios.fold(0.0, f64::max)
     }
@@ -103,7 +106,7 @@ impl GuardPolynomials {
         s: f64,
         tolerance: f64,
     ) -> bool {
-        let errors = self.errors(dynamics, mode, s, [tolerance, 0.0, 0.0], |_| (false, 0.0));
+        let errors = self.errors(dynamics, mode, s, [tolerance, 0.0], &[], |_| (false, 0.0));
         let is_off =
             |off: GuardError| !(off.error.is_finite() && off.error <= off.allowed + off.rounding);
         let off: Vec<usize> = errors
@@ -129,16 +132,18 @@ impl GuardPolynomials {
         steady
     }
 
-    /// The values of the guards that read forces at the last value of `dynamics`.
-    pub(in crate::run) fn values_of_forces<T: Scalar>(
+    /// The values of all guards at the last value of `dynamics`.
+    pub(in crate::run) fn values<T: Scalar>(
         &self,
         mode: &Mode,
-        dynamics: &Dynamics<T>,
+        dynamics: &mut Dynamics<T>,
     ) -> Vec<f64> {
-        let curves = self.list.iter().enumerate();
-        let forces = curves.filter(|(_, curve)| curve.guard.is_force());
-        forces
-            .map(|(index, _)| self.value(index, mode, dynamics))
+        if !self.watches.is_empty() {
+            dynamics.report_value();
+        }
+        let guards = 0..self.list.len();
+        guards
+            .map(|index| self.value(index, mode, dynamics))
             .collect()
     }
 
@@ -149,7 +154,8 @@ impl GuardPolynomials {
         dynamics: &mut Dynamics<T>,
         mode: &Mode,
         s: f64,
-        [tolerance, blur, of_forces]: [f64; 3],
+        [tolerance, blur]: [f64; 2],
+        rounding: &[f64],
         known: impl Fn(Guard) -> (bool, f64),
     ) -> impl Iterator<Item = GuardError> {
         if !self.watches.is_empty() {
@@ -157,24 +163,23 @@ impl GuardPolynomials {
         }
         let dynamics = &*dynamics;
         let compared = self.compared(dynamics, mode, s);
-        compared.map(move |(guard, c, [found, value])| {
-            let (located, least) = known(guard);
-            let [blur, of_forces] = match guard.is_force() {
-                true => [blur, of_forces],
-                false => [0.0; 2],
-            };
-            let allowed = allowance::<T>(guard, tolerance, located).max(blur);
-            let error = (found - value).abs();
-            GuardError {
-                error,
-                allowed: allowed * size(value, c).max(least),
-                rounding: self
-                    .rounding(error, guard, dynamics)
-                    .max(of_forces)
-                    .max(self.change_in_no_time(guard, c, value, dynamics)),
-                other_side: !located && (found < 0.0) != (value < 0.0),
-            }
-        })
+        compared
+            .enumerate()
+            .map(move |(index, (guard, c, [found, value]))| {
+                let (located, least) = known(guard);
+                let blur = if guard.is_force() { blur } else { 0.0 };
+                let allowed = allowance::<T>(guard, tolerance, located).max(blur);
+                let error = (found - value).abs();
+                GuardError {
+                    error,
+                    allowed: allowed * size(value, c).max(least),
+                    rounding: self
+                        .rounding(error, guard, dynamics)
+                        .max(rounding.get(index).copied().unwrap_or(0.0))
+                        .max(self.change_in_no_time(guard, c, value, dynamics)),
+                    other_side: !located && (found < 0.0) != (value < 0.0),
+                }
+            })
     }
 
     /// All guards with their polynomials: what these say at part `s` of the step, and the value there.
