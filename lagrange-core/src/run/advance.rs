@@ -77,6 +77,7 @@ impl<T: Scalar> Run<T> {
             core::mem::swap(&mut self.now.state, &mut self.stepper.scratch);
             (self.now.valued, self.now.series) = (self.locator.rests.is_empty(), Progress::None);
         }
+        self.look_for_still_watches(end);
         self.log_marks(end, exact.value());
         self.remember_sides(end);
         self.remember_regions(end);

@@ -5,6 +5,7 @@ use super::guard_polynomials::{CLEAR, GuardPolynomials};
 use super::hit::Hit;
 use super::region::is_edge_in_flight;
 use super::spatial_slip::Rest;
+use super::still::StillWatches;
 use super::watches::{RESOLUTION, leading};
 use crate::arithmetic::{Scalar, epsilon};
 use crate::events::{Direction, deflate, find_root_until};
@@ -61,6 +62,8 @@ pub(super) struct Locator<T> {
     /// Per mark, when it was passed last.
     pub(super) mark_times: Vec<f64>,
     pub(super) marks: Vec<(usize, f64)>,
+    /// Terms of stops and marks that rounding alone changes.
+    pub(super) still: StillWatches,
 }
 
 /// Within this part of the step guards are looked at once more.
@@ -94,6 +97,7 @@ impl<T: Scalar> Locator<T> {
             mark_passed: vec![None; d.marks.len()],
             mark_times: vec![f64::NEG_INFINITY; d.marks.len()],
             marks: Vec::new(),
+            still: StillWatches::new(),
         }
     }
 
@@ -121,6 +125,7 @@ impl<T: Scalar> Locator<T> {
             mark_passed,
             mark_times,
             marks,
+            still,
         } = self;
         polynomials.restart();
         zeros.clear();
@@ -139,6 +144,7 @@ impl<T: Scalar> Locator<T> {
         mark_passed.fill(None);
         mark_times.fill(f64::NEG_INFINITY);
         marks.clear();
+        still.restart();
     }
 
     /// Whether the end of a step is the root of a guard, and how large what makes it is at least: of a force at its limit nothing else is left.
@@ -208,7 +214,14 @@ impl<T: Scalar> Run<T> {
             }
         };
         // A stop at the instant of an impact ends the run before it; rounding may see it a little later.
-        match self.first_stop((guards.end() * (1.0 + 1e-13)).min(1.0)) {
+        let until = (guards.end() * (1.0 + 1e-13)).min(1.0);
+        let mut stop = self.first_stop(until);
+        if let Some((_, s)) = stop
+            && self.look_for_still_watches(s)
+        {
+            stop = self.first_stop(until);
+        }
+        match stop {
             Some((stop, s)) => Hit::Stop(stop, s),
             None => guards,
         }

@@ -42,6 +42,7 @@ mod singular;
 mod spatial_slip;
 mod stepping;
 mod stiffness;
+mod still;
 mod switch;
 mod taylor_step;
 mod touching;

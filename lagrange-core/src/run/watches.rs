@@ -97,6 +97,9 @@ impl<T: Scalar> Run<T> {
         for &i in &curves.marks {
             let watch = &d.marks[i];
             if watch.zeros {
+                if self.is_still(Guard::Mark(i, 0)) {
+                    continue;
+                }
                 let curve = curves.mark_term(i, 0);
                 let below = self.locator.mark_below[i][0];
                 let known = self.known_zero(curve, below, Some((i, 0)), resolution);
@@ -161,6 +164,9 @@ impl<T: Scalar> Run<T> {
                 was_below,
                 known,
             } = term(k);
+            if self.is_still(guard) {
+                continue;
+            }
             let others =
                 |s: f64| (0..watch.terms.len()).all(|j| j == k || self.is_true(term(j), s));
             let mut consider = |s: f64| {
@@ -229,7 +235,10 @@ impl<T: Scalar> Run<T> {
         let curves = &self.locator.polynomials;
         for &i in &curves.stops {
             for (k, below) in self.locator.stop_below[i].iter_mut().enumerate() {
-                if !curves.stop_stays(i, k, *below) {
+                let still = &self.locator.still;
+                if !curves.stop_stays(i, k, *below)
+                    && !still.contains(Guard::Stop(i, k), &self.now.mode)
+                {
                     *below = is_below(curves.stop_term(i, k), end, resolution, *below);
                 }
             }
@@ -243,6 +252,13 @@ impl<T: Scalar> Run<T> {
                 false => None,
             };
             for (k, below) in below.iter_mut().enumerate() {
+                if self
+                    .locator
+                    .still
+                    .contains(Guard::Mark(i, k), &self.now.mode)
+                {
+                    continue;
+                }
                 *below = match passed {
                     Some((term, slope)) if term == k => slope < 0.0,
                     _ => is_below(curves.mark_term(i, k), end, resolution, *below),
