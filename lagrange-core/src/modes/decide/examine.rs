@@ -45,6 +45,12 @@ const IDLE: f64 = 1e6;
 /// as shows in how it changes with the state, when that changes by so much, relative.
 const SHAKE: f64 = 1e-8;
 
+/// A friction that would move its row by so many times what drives may hold by rounding alone:
+const HUGE: f64 = 1e6;
+
+/// positions are known to so many units of it.
+const ROUNDING_UNITS: f64 = 8.0;
+
 /// A condition jumps if it changes by more than this, relative, with the sides of others.
 const JUMP: f64 = 1e-6;
 
@@ -183,12 +189,13 @@ impl<T: Scalar> Decider<T> {
         }
         // Most candidates are refused, and many accepted, by their values already.
         dynamics.value(t, q, v)?;
-        if !self.questions.is_empty() || dynamics.has_rows_aside() {
+        let measured = !self.questions.is_empty() || dynamics.has_rows_aside();
+        if measured {
             self.measure(dynamics, facts);
         }
         self.share(dynamics);
         self.ask_values(dynamics, here);
-        if !self.violated.is_empty() {
+        if !self.violated.is_empty() || measured && self.sticks_by_rounding(dynamics, moment)? {
             return Ok(false);
         }
         if dynamics.has_rows_aside() && self.comes_apart(dynamics, &watched.deciding, here)? {
@@ -335,6 +342,50 @@ impl<T: Scalar> Decider<T> {
             }
         }
         Ok(apart)
+    }
+
+    /// Whether a friction sticks by rounding alone, as on the slider of a crank that has come to its dead centre to within 1e-20: forces that are so much
+    /// larger than what drives are others where positions are off by rounding. Such frictions are blamed.
+    ///
+    /// # Errors
+    /// The state itself, which is what `dynamics` holds afterwards, cannot be evaluated.
+    fn sticks_by_rounding(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        moment: EvaluationPoint<'_, T>,
+    ) -> Result<bool, EvaluationError> {
+        let d = dynamics.description();
+        let frictions = self.posed.frictions.iter().enumerate();
+        let sticking = frictions.filter(|(_, friction)| **friction == FrictionMode::Stick);
+        let mut rows = sticking.flat_map(|(f, _)| d.frictions[f].rows().map(move |row| (f, row)));
+        let is_huge = |&(_, row): &(usize, usize)| {
+            let pushed = self.sizes.compliance(row, dynamics) * dynamics.force(row).value().abs();
+            pushed > HUGE * self.sizes.acceleration(row, dynamics)
+        };
+        let Some((f, row)) = rows.find(is_huge) else {
+            return Ok(false);
+        };
+        let EvaluationPoint { t, q, v, .. } = moment;
+        let force = dynamics.force(row).value();
+        let extent = q.iter().fold(1.0, |size, x| x.value().abs().max(size));
+        let mut changes = false;
+        for units in [-ROUNDING_UNITS, ROUNDING_UNITS] {
+            let by = units * f64::EPSILON * extent;
+            // No two positions are off by the same, so that differences of them are off as well.
+            let beside = q.iter().enumerate();
+            let beside = beside.map(|(j, &x)| x + T::from_f64(by * (1.0 + j as f64).sqrt()));
+            let beside: Vec<T> = beside.collect();
+            let known = dynamics.value(t, &beside, v).is_ok();
+            changes |= !known || (dynamics.force(row).value() - force).abs() > 0.5 * force.abs();
+        }
+        dynamics.value(t, q, v)?;
+        if changes {
+            self.violated.push(match d.frictions[f].components {
+                1 => Guard::StickUpper(f),
+                _ => Guard::StickCone(f),
+            });
+        }
+        Ok(changes)
     }
 
     /// Takes the sizes of what guards are made of. Inertia and forcing are the same in all modes, but for branches.
