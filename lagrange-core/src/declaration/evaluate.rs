@@ -273,6 +273,15 @@ impl<N: Real> Evaluator<N> {
 }
 
 impl Evaluator {
+    /// What makes a value no finite number at the state, in words: the first operation in it that has none for operands that have.
+    pub(crate) fn why_not_finite(&self, value: usize) -> Option<String> {
+        let operations = Operations::of(self.declaration, [value]);
+        let is_finite = |x: usize| self.value(x).is_finite();
+        let mut without = operations.iter().filter(|o| !is_finite(o.value));
+        let first = without.find(|o| o.operands().all(is_finite))?;
+        operations.no_value(&first, self.value(first.x))
+    }
+
     /// Hands the derivatives of an operation over, with the operands that they are by.
     #[inline]
     fn pass(&self, operation: Operation, mut to: impl FnMut(usize, &Series)) {

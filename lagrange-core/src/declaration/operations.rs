@@ -1,8 +1,9 @@
 //! The operations that declared values are made of, and what they alone tell of the values: which of them may grow or jump where a series does
 //! not show it.
 
-use super::series::{ACOS, ASIN, ATAN, COSH, EXP, SINH, TAN, TANH};
+use super::series::{ACOS, ASIN, ATAN, COSH, EXP, LN, SINH, TAN, TANH};
 use super::{BYTES, Declaration, op};
+use crate::error::Shortest;
 use core::f64::consts::{PI, TAU};
 use std::collections::BTreeMap;
 
@@ -164,6 +165,32 @@ impl Operations {
             op::POWER => self.exponent(o) < 0.0 && varies(o.x),
             _ => o.function() == Some(TAN) && varies(o.x),
         })
+    }
+
+    /// Whether there are logarithms: below zero they have derivatives, and no values.
+    pub(crate) fn has_logarithms(&self) -> bool {
+        self.list.iter().any(|o| o.function() == Some(LN))
+    }
+
+    /// Why an operation has no finite value for this operand, in words; nothing of sums and products, which only hand one on.
+    pub(super) fn no_value(&self, operation: &Operation, x: f64) -> Option<String> {
+        let of = |name: &str| Some(format!("{name}({})", Shortest(x)));
+        match operation.code {
+            op::POWER if self.exponent(operation) < 0.0 && x == 0.0 => {
+                Some("a division by 0".to_owned())
+            }
+            op::POWER if x < 0.0 => Some(format!("({x})^{}", self.exponent(operation))),
+            op::POWER => Some(format!("{x}^{}", self.exponent(operation))),
+            _ => match operation.function()? {
+                LN => of("ln"),
+                ASIN => of("asin"),
+                ACOS => of("acos"),
+                EXP => of("exp"),
+                SINH => of("sinh"),
+                COSH => of("cosh"),
+                _ => None,
+            },
+        }
     }
 
     /// The arguments of `asin` and `acos`, which have a corner where these are ±1.

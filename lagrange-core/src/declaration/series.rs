@@ -77,6 +77,7 @@ pub(super) const SINH: u32 = 6;
 pub(super) const COSH: u32 = 7;
 pub(super) const TANH: u32 = 8;
 pub(super) const EXP: u32 = 9;
+pub(super) const LN: u32 = 10;
 
 /// Function `number` of the format and its first three derivatives at x.
 pub(super) fn function<N: Real>(number: u32, x: N) -> [N; 4] {
@@ -121,7 +122,7 @@ pub(super) fn function<N: Real>(number: u32, x: N) -> [N; 4] {
             [t, u, n(-2.0) * t * u, third]
         }
         EXP => [x.exp(); 4],
-        10 => {
+        LN => {
             let third = n(2.0) * x.raised(-3.0);
             [x.ln(), x.raised(-1.0), minus(x.raised(-2.0)), third]
         }

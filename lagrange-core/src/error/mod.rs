@@ -92,6 +92,8 @@ pub enum Error {
         mode: String,
         /// Which quantity.
         what: String,
+        /// The item that makes it so, if one has no finite value itself.
+        item: Option<&'static str>,
         /// Why.
         cause: NotFinite,
     },
@@ -329,6 +331,7 @@ impl Error {
                     time,
                     mode,
                     what,
+                    item: None,
                     cause: NotFinite::Domain,
                 }
             }

@@ -101,6 +101,7 @@ impl fmt::Display for Error {
                 mode,
                 what,
                 cause,
+                ..
             } => write!(
                 f,
                 "t = {} ({mode}): {what} is not finite; {}",

@@ -7,11 +7,23 @@ use crate::system::Erased;
 
 /// The operations of what acts.
 pub(super) fn acting<T: Scalar>(system: &Erased<T>, effects: &Effects) -> Operations {
+    let values = acting_values(system, effects);
+    Operations::of(
+        system.declaration(),
+        values.into_iter().map(|(_, value)| value),
+    )
+}
+
+/// The values of what acts, each with the item that it is of.
+pub(super) fn acting_values<T: Scalar>(
+    system: &Erased<T>,
+    effects: &Effects,
+) -> Vec<(Item, usize)> {
     let (d, declaration) = (system.description(), system.declaration());
     let mut values = Vec::new();
     let mut put = |item: Item, list: &[usize]| {
         if effects.includes(d, item) {
-            values.extend_from_slice(list);
+            values.extend(list.iter().map(|&value| (item, value)));
         }
     };
     for (i, &value) in declaration.kinetic.iter().enumerate() {
@@ -50,5 +62,5 @@ pub(super) fn acting<T: Scalar>(system: &Erased<T>, effects: &Effects) -> Operat
     for (i, terms) in declaration.marks.iter().enumerate() {
         put(Item::Mark(i), terms.unwrap_or_default());
     }
-    Operations::of(declaration, values)
+    values
 }

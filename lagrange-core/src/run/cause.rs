@@ -1,7 +1,7 @@
 //! What is behind an error of the motion: coefficients without meaning where it happened, or fixed steps that lost the motion.
 
 use super::Run;
-use super::acting::acting;
+use super::acting::{acting, acting_values};
 use crate::arithmetic::Scalar;
 use crate::declaration::{Evaluator, Inputs};
 use crate::error::{Error, NotFinite};
@@ -56,25 +56,53 @@ impl<T: Scalar> Run<T> {
                 time: *time,
                 mode: core::mem::take(mode),
                 what: format!("the impulse of `{item}`"),
+                item: None,
                 cause: NotFinite::Range,
             };
         }
-        if let Error::NotFinite { cause, .. } = &mut error {
+        if let Error::NotFinite {
+            what, item, cause, ..
+        } = &mut error
+        {
             if self.exponentials_overflow() {
                 *cause = NotFinite::Exponential;
             } else if self.is_out_of_range() {
                 *cause = NotFinite::Range;
+            } else if let Some((name, why)) = self.item_without_value() {
+                (*what, *item) = (format!("`{name}`, with {why} in it,"), Some(name));
             }
         }
         error
     }
 
-    /// Whether functions in what acts are so large at the present state that powers of them are beyond all numbers.
-    fn exponentials_overflow(&self) -> bool {
+    /// The first item that has no finite value at the present state, and what makes it so.
+    fn item_without_value(&self) -> Option<(&'static str, String)> {
         let system = self.dynamics.system();
-        let acting = acting(system, self.dynamics.effects());
-        let growing: Vec<usize> = acting.exponentials().collect();
-        let wanted = growing.iter().copied();
+        let acting = acting_values(system, self.dynamics.effects());
+        let wanted = acting.iter().map(|(_, value)| *value);
+        let evaluator = self.evaluated(wanted);
+        let mut acting = acting.into_iter();
+        acting.find_map(|(item, value)| {
+            let known = evaluator.follows_state(value) && !evaluator.value(value).is_finite();
+            let why = known.then(|| evaluator.why_not_finite(value)).flatten()?;
+            Some((item.name(self.description()), why))
+        })
+    }
+
+    /// An item whose logarithm has derivatives at the present state, and no value.
+    pub(super) fn check_logarithms(&self) -> Result<(), Error> {
+        if !self.has_logarithms {
+            return Ok(());
+        }
+        match self.item_without_value() {
+            None => Ok(()),
+            Some(_) => Err(self.overflow(self.not_finite(self.description().name))),
+        }
+    }
+
+    /// Declared values at the present state, as far as they need no accelerations and forces.
+    fn evaluated(&self, wanted: impl IntoIterator<Item = usize>) -> Evaluator {
+        let system = self.dynamics.system();
         let mut evaluator = Evaluator::new(system.declaration(), &system.parameters(), wanted);
         let numbers = |list: &[T]| -> Vec<f64> { list.iter().map(|x| x.value()).collect() };
         let State { q, v, .. } = &self.now.state;
@@ -83,9 +111,18 @@ impl<T: Scalar> Run<T> {
             q: &numbers(q),
             v: &numbers(v),
             acceleration: &vec![0.0; q.len()],
-            forces: &[],
-            loads: &[],
+            forces: &vec![0.0; self.description().rows.len()],
+            loads: &vec![0.0; self.description().forces.len()],
         });
+        evaluator
+    }
+
+    /// Whether functions in what acts are so large at the present state that powers of them are beyond all numbers.
+    fn exponentials_overflow(&self) -> bool {
+        let system = self.dynamics.system();
+        let acting = acting(system, self.dynamics.effects());
+        let growing: Vec<usize> = acting.exponentials().collect();
+        let evaluator = self.evaluated(growing.iter().copied());
         growing.into_iter().any(|value| {
             let size = evaluator.value(value).powi(RAISED);
             evaluator.follows_state(value) && size.is_infinite()

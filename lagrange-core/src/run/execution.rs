@@ -68,7 +68,8 @@ impl<T: Scalar> Run<T> {
         self.hidden.iter_mut().for_each(Hidden::restart);
         self.recorder.awaited.clone_from(&self.settings.last_events);
         (self.recorder.events_before, self.recorder.finished) = (0, false);
-        let begun = self.enter_start().and_then(|()| self.settle());
+        let begun = self.enter_start().and_then(|()| self.check_logarithms());
+        let begun = begun.and_then(|()| self.settle());
         begun.map_err(|error| {
             let extremal = self.extremal_constraint(&error);
             extremal.unwrap_or_else(|| self.overflow(error))

@@ -59,6 +59,7 @@ impl<T: Scalar> Run<T> {
             time: self.now.t.value(),
             mode: self.mode_in_words(),
             what: what.to_owned(),
+            item: None,
             cause: NotFinite::Domain,
         }
     }

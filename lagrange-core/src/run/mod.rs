@@ -91,6 +91,8 @@ pub(crate) struct Run<T: Scalar> {
     strengths_vary: bool,
     /// Whether accelerations may jump where no branch says so.
     may_jump: bool,
+    /// Whether what acts has logarithms.
+    has_logarithms: bool,
     /// Whether what acts is a function of time.
     changes_with_time: bool,
     /// The declared Lagrangian, if a choice in it may change.
@@ -181,6 +183,7 @@ impl<T: Scalar> Run<T> {
             hidden: Hidden::new(&system, &acting),
             strengths_vary: domain::strengths_vary(d),
             may_jump: acting.may_jump(),
+            has_logarithms: acting.has_logarithms(),
             changes_with_time: acting.reads_time(),
             lagrangian: Lagrangian::new(&system, &settings.effects),
             passage: match rank.watches() {

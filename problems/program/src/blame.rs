@@ -58,7 +58,7 @@ fn items(error: &Error) -> Option<Vec<&'static str>> {
             vec![*item]
         }
         Error::Singular { items, .. } => items.clone(),
-        Error::NotFinite { .. } => Vec::new(),
+        Error::NotFinite { item, .. } => item.iter().copied().collect(),
         _ => return None,
     })
 }

@@ -124,6 +124,56 @@ fn a_contact_at_a_pole_is_never_reached_or_told() {
     assert!(run(0.0, 1.0, empty).is_ok_and(|x| x == 0.0));
 }
 
+/// A bead in a well whose potential has a value on one side only: of a logarithm below zero there are derivatives still.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    potential(hill: 2*x),
+    potential(well: ln(x - edge)),
+    potential(pole: small/(x - far)),
+    potential(arc: small*acos(x/wide)),
+    potential(root: small*sqrt(x - low)),
+)]
+struct Well {
+    edge: f64,
+    far: f64,
+    wide: f64,
+    low: f64,
+    small: f64,
+}
+
+#[test]
+fn the_item_that_has_no_value_at_the_start_is_named() {
+    let good = Well {
+        edge: 0.0,
+        far: 9.0,
+        wide: 9.0,
+        low: 0.0,
+        small: 1e-3,
+    };
+    let run = |well: Well| {
+        let run = Simulation::new(&well).run(State::new(vec![0.5], vec![0.0]), 0.0..0.1);
+        run.map_err(|failure| failure.error)
+    };
+    assert!(run(good.clone()).is_ok());
+    let [mut edge, mut far, mut wide, mut low] = [(); 4].map(|()| good.clone());
+    (edge.edge, far.far, wide.wide, low.low) = (1.0, 0.5, 0.25, 0.75);
+    for (well, name, why) in [
+        (edge, "well", "ln(-0.5)"),
+        (far, "pole", "a division by 0"),
+        (wide, "arc", "acos(2)"),
+        (low, "root", "(-0.25)^0.5"),
+    ] {
+        let error = run(well).expect_err("no value");
+        let Error::NotFinite { what, item, .. } = &error else {
+            panic!("{error}");
+        };
+        assert_eq!(*item, Some(name), "{error}");
+        assert!(what.contains(why), "{error}");
+    }
+}
+
 /// A ball with friction that meets the floor after √(2/g).
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
