@@ -14,6 +14,12 @@ const MOST_EVENTS_AT_ONCE: usize = 40;
 /// Nearer than this to a loss of rank what is left of a residual is amplified: it is taken away to the last bit.
 const NEAR: f64 = 0.7;
 
+/// Each so many steps it is seen how many have been tried in vain:
+const STEPS_OF_TRIES: usize = 1000;
+
+/// where these are more than so many a step, rounding or a jump says how long steps are, and there is no end to them.
+const MOST_TRIES: usize = 10;
+
 /// Steps between two looks at rows that a step does not leave by more than rounding.
 const STEPS_OF_ROUNDING: usize = 16;
 
@@ -51,6 +57,7 @@ impl<T: Scalar> Run<T> {
             return Err(self.limit("steps", self.settings.max_steps));
         }
         self.check_reach()?;
+        self.check_tries()?;
         if let Some(monitor) = &self.settings.monitor {
             let time = self.now.t.value();
             monitor.tell(time);
@@ -59,6 +66,19 @@ impl<T: Scalar> Run<T> {
             }
         }
         Ok(())
+    }
+
+    /// Whether steps are not tried in vain again and again.
+    fn check_tries(&mut self) -> Result<(), Error> {
+        let work = &self.recorder.trajectory.work;
+        if !work.steps.is_multiple_of(STEPS_OF_TRIES) {
+            return Ok(());
+        }
+        let before = core::mem::replace(&mut self.stepper.rejected, work.rejected);
+        match work.rejected.saturating_sub(before) > MOST_TRIES * STEPS_OF_TRIES {
+            true => Err(self.step_too_small(self.stepper.step.h.value())),
+            false => Ok(()),
+        }
     }
 
     /// Moves the state to the end of the step at hand, up to what ends it, and writes that down. The part of the step up to there.

@@ -41,6 +41,8 @@ pub(super) struct Stepper<T> {
     pub(super) astray: f64,
     /// Breaks of guards that were passed since the last step that no guard has bounded so.
     pub(super) breaks: usize,
+    /// Steps that had been tried in vain when that was looked at last.
+    pub(super) rejected: usize,
     pub(super) stiffness: Stiffness<T>,
     pub(super) resolution: Resolution,
     pub(super) step: StepPolynomial<T>,
@@ -73,6 +75,7 @@ impl<T: Scalar> Stepper<T> {
             guarded: None,
             astray: 0.0,
             breaks: 0,
+            rejected: 0,
             stiffness: Stiffness::new(settings.method),
             resolution: Resolution::default(),
             step: StepPolynomial::new(n, 1),
@@ -97,7 +100,8 @@ impl<T: Scalar> Stepper<T> {
     /// Forgets what belongs to another motion; the method is the one that was asked for.
     pub(super) fn restart(&mut self) {
         self.control = DefectControl::default();
-        (self.wanted, self.guarded, self.breaks) = (None, None, 0);
+        (self.wanted, self.guarded) = (None, None);
+        (self.breaks, self.rejected) = (0, 0);
         self.astray = 0.0;
         self.resolution = Resolution::default();
         if let Some(method) = &mut self.other {

@@ -366,3 +366,33 @@ fn numbers_out_of_range_are_an_error_that_says_so() {
     assert!(failure.to_string().contains("choose other units"));
     run(1e-290, 4e-287).unwrap_or_else(|failure| panic!("{failure}"));
 }
+
+/// A mass beside a cycloid, told by the place along it and the height along its normal, which turns over in the cusp at u = π: the kinetic energy jumps there,
+/// and close to it rounding of 0/0 says how long steps are.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(u, h),
+    define(l = sqrt((1 + cos(u))^2 + sin(u)^2), nx = sin(u)/l, ny = (1 + cos(u))/l),
+    define(px = u + sin(u) + h*nx, py = 1 + cos(u) + h*ny),
+    kinetic = (der(px)^2 + der(py)^2)/2,
+)]
+struct Cusp {
+    _unit: f64,
+}
+
+#[test]
+fn steps_that_rounding_makes_ever_shorter_end_the_run() {
+    for tolerance in [1e-9, 1e-12] {
+        let simulation = Simulation::new(&Cusp { _unit: 1.0 }).tolerance(tolerance);
+        let failure = simulation.run(state(&[2.5, 0.2], &[1.0, 0.0]), 0.0..5.0);
+        let Err(Failure { error, trajectory }) = failure else {
+            panic!("{tolerance:e}: it has passed the cusp");
+        };
+        assert!(matches!(error, Error::StepTooSmall { .. }), "{error}");
+        let [u, _] = trajectory.final_state().q[..] else {
+            panic!("two coordinates");
+        };
+        assert!((0.0..1e-3).contains(&(std::f64::consts::PI - u)), "{u}");
+        assert!(trajectory.work().steps < 10_000, "{error}");
+    }
+}
