@@ -87,7 +87,7 @@ fn the_emitted_rust_parses() {
     // What the declaration names keeps its name.
     for part in [
         "p_mass_ = self.mass;",
-        "q_theta_.sin_cos()",
+        "turns_[0].sin_cos(q_theta_)",
         "a_theta",
         "v_phi",
     ] {
@@ -133,6 +133,12 @@ fn what_makes_no_sense_is_refused_in_one_line() {
         "did you mean `rim closed, grip sticks`?",
     );
     wheel(&["--mode", "flying"], "there are: `rim open`");
+    // What is written right is no other mode's.
+    refuses(
+        &["inspect", "ladder", "--mode", "flor and wall closed"],
+        2,
+        "did you mean `wall closed, floor closed`?",
+    );
     wheel(
         &["--format", "pdf"],
         "text, latex, mathml, markdown, rust, graph, dot, json",
@@ -200,6 +206,7 @@ fn latex_compiles_and_stays_on_the_page() {
         .current_dir(&folder)
         .output();
     let Ok(tex) = tex else {
+        std::fs::remove_dir_all(&folder).expect("it is ours");
         println!("skipped: there is no pdflatex on this machine");
         return;
     };

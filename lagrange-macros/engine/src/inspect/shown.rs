@@ -16,6 +16,8 @@ const MOST_NAMED: usize = 8;
 pub struct UnknownMode {
     /// As asked for.
     pub name: String,
+    /// What it says, one item after the other.
+    pub said: Vec<String>,
     /// Modes that exist; not all if there are many.
     pub known: Vec<String>,
     /// How many there are.
@@ -49,6 +51,7 @@ pub(super) fn shown(
         Some(mode) => Ok((vec![mode], count)),
         None => Err(UnknownMode {
             name: name.to_owned(),
+            said: modes::clauses(system, name),
             known: chosen(system)
                 .iter()
                 .map(|mode| mode.name(system))

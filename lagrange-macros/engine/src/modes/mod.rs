@@ -11,6 +11,7 @@ mod tests;
 use crate::model::{Normal, System};
 
 pub use list::{Modes, all, structures};
+pub use name::clauses;
 pub use pins::{Pin, pinned, pins};
 
 /// Which contacts are closed, and how each friction acts. Lengths are those of the system's lists.

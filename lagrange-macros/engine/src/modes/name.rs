@@ -42,14 +42,9 @@ impl Mode {
         }
     }
 
-    /// The mode of this name; open contacts need not be named.
+    /// The mode of this name, in the words of [`Self::name`] or as stories and plots shorten them; open contacts need not be named.
     pub fn named(system: &System, name: &str) -> Option<Mode> {
-        let clauses = name
-            .split(',')
-            .map(|clause| clause.split_whitespace().collect::<Vec<_>>().join(" "));
-        let mut clauses: Vec<String> = clauses
-            .filter(|clause| !clause.is_empty() && clause != "smooth")
-            .collect();
+        let mut clauses = clauses(system, name);
         let mut says = |item: &str, verb: &str| {
             let clause = format!("{item} {verb}");
             let at = clauses.iter().position(|said| *said == clause);
@@ -74,4 +69,81 @@ impl Mode {
         }
         clauses.is_empty().then_some(mode)
     }
+}
+
+/// What a name says of one item after the other, `a open`, `b open`: also where it says them together, `a and b open`, or counts them,
+/// `all 3 contacts open`. Sides of branches are left out, since the equations of a mode show all of them.
+pub fn clauses(system: &System, name: &str) -> Vec<String> {
+    let is_side = |part: &String| {
+        let mut branches = system.branches.iter();
+        branches.any(|branch| *part == branch.then || *part == branch.otherwise)
+            || part.ends_with(" more conditions")
+    };
+    let mut clauses: Vec<String> = Vec::new();
+    // Names before the verb that they share.
+    let mut waiting: Vec<String> = Vec::new();
+    for part in parts(name).into_iter().filter(|part| !is_side(part)) {
+        let words: Vec<&str> = part.split(' ').collect();
+        let (names, verb) = match words.as_slice() {
+            ["all", count, kind @ ("contacts" | "frictions"), verb @ ..] => {
+                let closed = |name: &str| clauses.contains(&format!("{name} closed"));
+                let all = match *kind {
+                    "contacts" => contacts(system),
+                    _ => frictions(system, closed),
+                };
+                match *count == all.len().to_string() {
+                    true => (all, verb),
+                    false => (vec![part.clone()], &[][..]),
+                }
+            }
+            [one, "and", other, verb @ ..] => (vec![(*one).to_owned(), (*other).to_owned()], verb),
+            [one, verb @ ..] => (vec![(*one).to_owned()], verb),
+            [] => continue,
+        };
+        waiting.extend(names);
+        let verb = match verb {
+            [] => continue,
+            ["stick"] => "sticks".to_owned(),
+            ["slip", way @ ..] => [&["slips"], way].concat().join(" "),
+            verb => verb.join(" "),
+        };
+        clauses.extend(waiting.drain(..).map(|name| format!("{name} {verb}")));
+    }
+    clauses.extend(waiting);
+    clauses
+}
+
+/// What stands between commas that are in no brackets.
+fn parts(name: &str) -> Vec<String> {
+    let mut depth = 0;
+    let parts = name.split(|c| {
+        match c {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            _ => {}
+        }
+        c == ',' && depth == 0
+    });
+    let parts = parts.map(|part| part.split_whitespace().collect::<Vec<_>>().join(" "));
+    parts
+        .filter(|part| !part.is_empty() && part != "smooth")
+        .collect()
+}
+
+/// Names of all contacts.
+fn contacts(system: &System) -> Vec<String> {
+    let contacts = system.contacts.iter();
+    contacts.map(|contact| contact.name.text.clone()).collect()
+}
+
+/// Names of the frictions that act while these contacts are closed.
+fn frictions(system: &System, closed: impl Fn(&str) -> bool) -> Vec<String> {
+    let acts = |f: &usize| {
+        let contact = system.contact_under(*f);
+        contact.is_none_or(|contact| closed(&system.contacts[contact].name.text))
+    };
+    let acting = (0..system.frictions.len()).filter(acts);
+    acting
+        .map(|f| system.frictions[f].name.text.clone())
+        .collect()
 }

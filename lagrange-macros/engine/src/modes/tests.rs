@@ -94,6 +94,49 @@ fn all_modes_of_small_systems() {
     }
 }
 
+/// Stories and plots say together what items have in common, and which sides of branches hold.
+#[test]
+fn modes_are_found_by_what_stories_call_them() {
+    let items = [
+        FLOOR,
+        WALL,
+        RUB,
+        BRAKE,
+        "contact(roof: y <= b),",
+        "potential = max(x, 0),",
+    ];
+    let system = equations(&items.concat()).system;
+    let found = |name: &str| Mode::named(&system, name).map(|mode| mode.name(&system));
+    for (told, name) in [
+        (
+            "floor and wall closed, roof open, rub and brake stick",
+            "floor closed, wall closed, roof open, rub sticks, brake sticks",
+        ),
+        (
+            "all 3 contacts open, brake slips forward",
+            "floor open, wall open, roof open, brake slips forward",
+        ),
+        (
+            "all 3 contacts closed, all 2 frictions slip backward, x >= 0",
+            "floor closed, wall closed, roof closed, rub slips backward, brake slips backward",
+        ),
+        (
+            "floor, wall and roof open, brake sticks, 3 more conditions",
+            "floor open, wall open, roof open, brake sticks",
+        ),
+    ] {
+        assert_eq!(found(told).as_deref(), Some(name), "{told}");
+    }
+    for wrong in [
+        "all 2 contacts open, brake sticks",
+        "all 3 contacts open, all 2 frictions stick",
+        "floor and wall, brake sticks",
+        "2 of 3 contacts open, brake sticks",
+    ] {
+        assert_eq!(found(wrong), None, "{wrong}");
+    }
+}
+
 /// The sign of a slip is an argument; a friction that is left out leaves its contact closed without friction. A constraint can be
 /// left out where it acts, with no friction on it.
 #[test]

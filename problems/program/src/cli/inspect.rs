@@ -9,6 +9,7 @@ use crate::format::named;
 use crate::names::nearest;
 use clap::{Args, ValueEnum};
 use lagrange_engine::inspect::{Derivation, print};
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 /// Show what was derived from a scene.
@@ -123,36 +124,40 @@ impl Inspect {
         }
     }
 
-    /// A mode that is not there, with those that agree with all that it says, or the nearest one.
+    /// A mode that is not there, with those that agree with all that it says, or with what it seems to say.
     fn refused(&self, refusal: lagrange_engine::Refusal) -> Trouble {
         let lagrange_engine::Refusal::Mode(unknown) = &refusal else {
             return Trouble::failed(refusal);
         };
-        let known: Vec<&str> = unknown.known.iter().map(String::as_str).collect();
-        let parts = |mode: &str| -> Vec<String> {
-            let parts = mode.split(',').map(|part| part.trim().to_owned());
-            parts.collect()
+        let parts =
+            |mode: &'_ String| -> Vec<String> { mode.split(", ").map(str::to_owned).collect() };
+        let agree = |said: &[String]| -> Vec<String> {
+            let known = unknown.known.iter();
+            let agree = known.filter(|mode| said.iter().all(|part| parts(mode).contains(part)));
+            agree.map(|mode| format!("`{mode}`")).collect()
         };
-        let asked = parts(&unknown.name);
-        let agrees = |mode: &&&str| {
-            let said = parts(mode);
-            asked.iter().all(|part| said.contains(part))
-        };
-        let agree: Vec<String> = known
-            .iter()
-            .filter(agrees)
-            .map(|mode| format!("`{mode}`"))
-            .collect();
-        if !agree.is_empty() {
+        let agreeing = agree(&unknown.said);
+        if !agreeing.is_empty() {
             return Trouble::usage(format_args!(
                 "`{}` is not all of a mode; with that there are {}",
                 unknown.name,
-                agree.join(", ")
+                agreeing.join(", ")
             ));
         }
-        match nearest(&unknown.name, &known) {
+        // What is written right stands in the mode that is suggested.
+        let known: BTreeSet<String> = unknown.known.iter().flat_map(parts).collect();
+        let known: Vec<&str> = known.iter().map(String::as_str).collect();
+        let meant = unknown
+            .said
+            .iter()
+            .map(|part| match known.contains(&part.as_str()) {
+                true => Some(part.clone()),
+                false => nearest(part, &known).map(str::to_owned),
+            });
+        let meant: Option<Vec<String>> = meant.collect();
+        match meant.and_then(|meant| agree(&meant).into_iter().next()) {
             Some(near) => Trouble::usage(format_args!(
-                "no mode is called `{}`; did you mean `{near}`?",
+                "no mode is called `{}`; did you mean {near}?",
                 unknown.name
             )),
             None => Trouble::usage(unknown),
