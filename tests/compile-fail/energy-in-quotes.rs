@@ -4,4 +4,4 @@
     kinetic = "mass/2 * der(x)^2",
 )]
 struct S { mass: f64 }
-//~ 4:15 E021 `"mass/2 * der(x)^2"` is Rust's notation; write the expression without quotation marks; only units have them
+//~ 4:15 E021 `"mass/2 * der(x)^2"` is not written so; write the expression without quotation marks; only units have them

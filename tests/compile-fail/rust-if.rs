@@ -6,4 +6,4 @@
     observe(a = if x >= 0 { x } else { 0 }),
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
-//~ 6:17 E021 `if` is Rust's notation; write `if(a >= b, x, y)`
+//~ 6:17 E021 `if` is not written so; write `if(a >= b, x, y)`

@@ -5,4 +5,4 @@
     potential = -mass * gravity * length * f64::cos(theta),
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
-//~ 5:44 E021 `f64::cos` is Rust's notation; write `cos(…)`
+//~ 5:44 E021 `f64::cos` is not written so; write `cos(…)`

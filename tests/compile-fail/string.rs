@@ -5,4 +5,4 @@
     potential = -mass * gravity * length * "theta",
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
-//~ 5:44 E021 `"theta"` is Rust's notation; write the expression without quotation marks; only units have them
+//~ 5:44 E021 `"theta"` is not written so; write the expression without quotation marks; only units have them

@@ -17,6 +17,14 @@ fn short(value: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
+/// What a residual may be.
+fn accepted(tolerance: f64) -> String {
+    match tolerance == 0.0 {
+        true => "0".to_owned(),
+        false => format!("{tolerance:.1e}"),
+    }
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -50,13 +58,14 @@ impl fmt::Display for Error {
                 tolerance,
             } => write!(
                 f,
-                "the start violates `{item}`: {} residual {} (accepted: {tolerance:.1e}); \
+                "the start violates `{item}`: {} residual {} (accepted: {}); \
                  give {} that satisfy it, or have the nearest ones taken (`--project`, in Rust `project_start(true)`)",
                 match level {
                     Level::Position => "position",
                     Level::Velocity => "velocity",
                 },
                 short(*residual),
+                accepted(*tolerance),
                 match level {
                     Level::Position => "positions",
                     Level::Velocity => "velocities, `der(…)`,",
@@ -68,11 +77,11 @@ impl fmt::Display for Error {
                 tolerance,
             } => write!(
                 f,
-                "the start is below the surface of `{item}`: gap {} (accepted: {:.1e}); begin above it, or have the \
+                "the start is below the surface of `{item}`: gap {} (accepted: {}); begin above it, or have the \
                  nearest positions taken (`--project`, in Rust `project_start(true)`), or, for a body that hangs under a surface, let the \
                  contact's region (`where …`) leave that place out",
                 short(*gap),
-                -tolerance
+                accepted(-tolerance)
             ),
             Error::Projection {
                 time,

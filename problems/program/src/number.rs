@@ -10,12 +10,37 @@ pub fn finite(text: &str) -> Result<f64, String> {
     let text = text.trim();
     let number = match text.parse::<f64>() {
         Ok(number) => number,
-        Err(_) => lagrange_engine::number(text).map_err(|mistakes| why_not(text, &mistakes))?,
+        Err(_) => lagrange_engine::number(text).map_err(|mistakes| match has_unit(text) {
+            true => format!("`{text}` is not a number: {WITHOUT_UNIT}"),
+            false => why_not(text, &mistakes),
+        })?,
     };
     match number.is_finite() {
         true => Ok(number),
         false => Err("the value must be finite".to_owned()),
     }
+}
+
+/// What is said of `3s` and `2 kg`.
+const WITHOUT_UNIT: &str = "a value is a plain number, in the unit in which its parameter or coordinate is declared, and of a time in s; \
+     write it without a unit";
+
+/// Whether a text is a number with letters behind it that are none themselves, as those of `2pi` are.
+fn has_unit(text: &str) -> bool {
+    let digits = |c: char| c.is_ascii_digit() || "+-.".contains(c);
+    let rest = text.trim_start_matches(digits);
+    let exponent = rest.strip_prefix(['e', 'E']);
+    let exponent = exponent.map(|rest| (rest, rest.trim_start_matches(digits)));
+    let rest = match exponent {
+        Some((all, rest)) if rest.len() < all.len() => rest,
+        _ => rest,
+    };
+    // Degrees are told how they are written.
+    let unit = rest.trim_start();
+    rest.len() < text.len()
+        && unit.starts_with(char::is_alphabetic)
+        && !unit.starts_with("deg")
+        && lagrange_engine::number(unit).is_err()
 }
 
 /// That a text is not a number, and by which mistake.
@@ -41,7 +66,7 @@ pub fn count(text: &str) -> Option<usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::{count, finite};
+    use super::{WITHOUT_UNIT, count, finite};
     use core::f64::consts::PI;
 
     #[test]
@@ -85,6 +110,10 @@ mod tests {
         ] {
             let told = format!("`{wrong}` is not a number: {why}");
             assert_eq!(finite(wrong), Err(told));
+        }
+        for with_unit in ["3s", "2 kg", "-1.5e3m/s", "1e-3 m^2", "5e", ".5µm"] {
+            let told = format!("`{with_unit}` is not a number: {WITHOUT_UNIT}");
+            assert_eq!(finite(with_unit), Err(told));
         }
         for wrong in ["inf", "nan", "1e999", "-inf"] {
             assert_eq!(finite(wrong), Err("the value must be finite".to_owned()));

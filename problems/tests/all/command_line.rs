@@ -109,6 +109,11 @@ fn requests_without_sense_are_refused_in_one_line() {
         "two results would go to stdout",
     );
     run(&["--until", "0"], "must be above 0");
+    run(
+        &["--until", "3s"],
+        "`3s` is not a number: a value is a plain number",
+    );
+    run(&["--set", "mass=2kg"], "write it without a unit");
     run(&["--tolerance", "-1"], "must be above 0");
     run(
         &["--format", "xml"],

@@ -53,7 +53,7 @@ table! {
     MissingPart "E018" "`{0}` has no {1}" "add `{2}`";
     Later "E019" "`{0}` comes with a later version" "{1}";
     InclusiveRange "E020" "ranges are half open" "write `a..b`, which leaves `b` out";
-    RustNotation "E021" "`{0}` is Rust's notation" "{1}";
+    RustNotation "E021" "`{0}` is not written so" "{1}";
     TooDeep "E022" "too many parentheses, powers or indices inside each other" "name inner parts with `define`";
     Exclusive "E023" "`{0}` and `{1}` exclude each other" "{2}";
     Operator "E024" "`{0}` is not an operator here" "{1}";

@@ -80,7 +80,7 @@ impl Elaboration<'_> {
             .filter(|(_, entry)| kinds.contains(&entry.kind));
         let near = match self.sink.is_full() {
             true => None,
-            false => nearest(text, of_kind.map(|(known, _)| known.as_str())),
+            false => meant(text, of_kind.map(|(known, _)| known.as_str())),
         };
         // `vx` is near to `x`, and means something else.
         let velocity = match kinds.contains(&Kind::Coordinate) {
@@ -109,8 +109,11 @@ impl Elaboration<'_> {
             let coordinates = names.filter(|(_, entry)| entry.kind == Kind::Coordinate);
             coordinates.map(|(name, _)| name.as_str())
         };
-        let base = match text {
-            "v" | "velocity" | "speed" => coordinates().next()?,
+        let base = match (text, coordinates().count()) {
+            ("v" | "velocity" | "speed", 1) => coordinates().next()?,
+            ("v" | "velocity" | "speed", _) => {
+                return Some("velocities are written `der(…)`".to_owned());
+            }
             _ => bases
                 .into_iter()
                 .flatten()
@@ -147,7 +150,7 @@ impl Elaboration<'_> {
             .map(String::as_str)
             .chain(indices)
             .chain(["pi", "energy"]);
-        match nearest(text, names) {
+        match meant(text, names) {
             Some(known) => format!("did you mean `{known}`?"),
             None => self.home.unknown().to_owned(),
         }
@@ -259,6 +262,17 @@ fn spelt(letter: char) -> Option<&'static str> {
             NAMES.get(place).copied()
         }
     }
+}
+
+/// The name of which this is the Greek letter in words, `phi` of `φ`, or else the nearest one.
+fn meant<'a>(text: &str, names: impl Iterator<Item = &'a str> + Clone) -> Option<&'a str> {
+    let in_words = |name: &str| -> String {
+        let letters = name.chars();
+        let words = letters.map(|letter| spelt(letter).map_or(letter.to_string(), str::to_owned));
+        words.collect()
+    };
+    let mut same = names.clone().filter(|name| in_words(name) == text);
+    same.next().or_else(|| nearest(text, names))
 }
 
 /// A name as that of a constant: `muStatic` and `mu_static` are both `MU_STATIC`. Greek letters are spelt, `THETA`: Rust warns of

@@ -146,7 +146,7 @@ fn what_only_a_file_has_is_checked() {
         ),
         (
             format!("parameters(m = 1), {rest}, potential = self.m * x"),
-            "1:68: `self.` is Rust's notation; parameters are written by their name alone",
+            "1:68: `self.` is not written so; parameters are written by their name alone",
         ),
         (
             format!("parameters(mass = 1, self = 1), {rest}"),

@@ -227,6 +227,14 @@ fn what_is_meant_is_told() {
             "2:10 E201 `xx` is not known; did you mean `x`?",
         ),
         (
+            "coordinates(φ), observe(out = phi)",
+            "2:31 E201 `phi` is not known; did you mean `φ`?",
+        ),
+        (
+            "observe(speed)",
+            "2:9 E201 `speed` is not known; velocities are written `der(…)`",
+        ),
+        (
             "attitude(body)",
             "2:14 E001 expected `:` and a name for its four coordinates, `body: q`, found the end",
         ),
