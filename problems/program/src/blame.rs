@@ -40,7 +40,17 @@ fn explained(scene: &dyn Scene, request: &Request, error: &Error, told: String) 
         _ => cause(scene, request),
     };
     let cause = cause.map_or(String::new(), |cause| format!("; {cause}"));
-    format!("{place}{told}{cause}")
+    let of_state = match error {
+        Error::Domain { .. } => false,
+        _ => scene.description().starts.is_empty(),
+    };
+    let zero = match of_state {
+        true => {
+            "; no `start(…)` is declared, so that coordinates and velocities that are not given are 0"
+        }
+        false => "",
+    };
+    format!("{place}{told}{cause}{zero}")
 }
 
 /// Items that a message about a start names, of a value the parameter first; nothing of an error that is none of the start.
@@ -111,10 +121,32 @@ mod tests {
             start: own(start),
             ..Request::default()
         };
-        match scene.run(&request) {
-            Ok(outcome) => failure(scene, &request, &outcome).unwrap_or_default(),
-            Err(refused) => refusal(scene, &request, &refused),
+        told(scene, &request)
+    }
+
+    /// What is said of a run, if anything.
+    fn told(scene: &dyn Scene, request: &Request) -> String {
+        match scene.run(request) {
+            Ok(outcome) => failure(scene, request, &outcome).unwrap_or_default(),
+            Err(refused) => refusal(scene, request, &refused),
         }
+    }
+
+    #[test]
+    fn a_start_that_is_not_declared_is_told() {
+        let declared = "parameters(mass = 1, h = 1), coordinates(y), kinetic = mass/2 * der(y)^2,\n\
+            contact(floor: y >= h), until = 0.1,";
+        let scene = crate::file::scene("fall.lagrange", declared).expect("a declaration");
+        let request = Request {
+            parameters: vec![("h".to_owned(), 2.0)],
+            ..Request::default()
+        };
+        let told = told(scene, &request);
+        let zero = "; no `start(…)` is declared, so that coordinates and velocities that are not given are 0";
+        assert!(
+            told.contains("is below the surface of `floor`") && told.ends_with(zero),
+            "{told}"
+        );
     }
 
     #[test]
