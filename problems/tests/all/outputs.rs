@@ -237,6 +237,18 @@ fn a_parquet_file_says_what_was_run() {
     assert_eq!(what["version"], env!("CARGO_PKG_VERSION"));
 }
 
+/// Also of a coordinate that is observed.
+#[test]
+fn a_unit_is_told_once() {
+    let folder = folder("outputs-units");
+    let file = "slide.lagrange";
+    let declared = "parameters(m: \"kg\" = 1), coordinates(x: \"m\"), kinetic = m/2 * der(x)^2, observe(x), until = 1,";
+    fs::write(folder.join(file), declared).expect("a file");
+    let output = lagrange_in(&folder, &["run", file, "--format", "json"]);
+    let said = text(&output.stdout);
+    assert_eq!(said.matches("\"x\": \"m\"").count(), 1, "{said}");
+}
+
 #[test]
 fn samples_are_as_many_as_asked_for() {
     let table = says(&[
@@ -315,6 +327,9 @@ fn every_command_has_stdout_for_a_dash_and_no_other_ending_than_its_own() {
     let refused = said(&["export", file, "--output", "main.rs"]);
     assert_eq!(refused.status.code(), Some(2));
     assert!(text(&refused.stderr).contains("choose another name, as --output system.rs"));
+    let refused = said(&["export", file, "--output", "system.py"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(text(&refused.stderr).contains("let it end in .rs"));
     let there = fs::read_dir(&folder).expect("the folder").count();
     assert_eq!(there, 1, "nothing but the declaration");
 }

@@ -239,6 +239,7 @@ fn an_error_is_asked_for_and_kept() {
     let file = read("scene = \"kepler\"\nerror = 1e-7\n").expect("a scene file");
     assert_eq!(file.request.error, Some(1e-7));
     let text = write(file.scene, &file.request, &file.outputs, Path::new("")).expect("TOML");
+    assert!(!text.contains("tolerance"), "{text}");
     let again = read(&text).expect("a scene file").request;
     assert_eq!((again.error, again.estimate), (Some(1e-7), false));
     let file = read("scene = \"kepler\"\nestimate = true\n").expect("a scene file");

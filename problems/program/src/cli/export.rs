@@ -34,6 +34,13 @@ impl Export {
             let reason = "what is exported is a module beside main.rs; choose another name, as --output system.rs";
             return Err(Trouble::usage(reason));
         }
+        if let Some(path) = path.filter(|path| path.extension().is_none_or(|ending| ending != "rs"))
+        {
+            return Err(Trouble::usage(format_args!(
+                "the name {} is not that of Rust: let it end in .rs",
+                path.display()
+            )));
+        }
         ready(path, std::slice::from_ref(&self.file))?;
         let exported = read(&self.file).and_then(|text| export(&self.file, &text));
         let exported = exported.map_err(Trouble::usage)?;
@@ -64,7 +71,7 @@ fn stem(path: &Path) -> String {
 fn module(path: &Path) -> (String, String) {
     let stem = stem(path);
     let is_name = |name: &String| syn::parse_str::<syn::Ident>(name).is_ok();
-    if is_name(&stem) && path.extension().is_some_and(|ending| ending == "rs") {
+    if is_name(&stem) {
         return (format!("mod {stem};"), stem);
     }
     let plain = stem.replace(|c: char| !c.is_alphanumeric(), "_");
@@ -88,7 +95,6 @@ mod tests {
             declared("src/my-arm.rs"),
             "#[path = \"my-arm.rs\"] mod my_arm;"
         );
-        assert_eq!(declared("arm.txt"), "#[path = \"arm.txt\"] mod arm;");
         assert_eq!(
             declared("2link.rs"),
             "#[path = \"2link.rs\"] mod system_2link;"

@@ -8,6 +8,7 @@ use crate::outcome::{Outcome, Sample, forces};
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
 use serde::{Serialize, Serializer};
+use std::collections::HashSet;
 use std::io::{self, Write};
 
 /// Writes `outcome` as one JSON object and a newline.
@@ -293,7 +294,9 @@ fn units(description: &Description) -> Texts {
     let observes = description.observes.iter();
     texts.extend(observes.map(|observe| (observe.name.to_owned(), observe.unit.to_owned())));
     texts.push(("energy".to_owned(), units.energy.to_owned()));
-    texts.retain(|(_, unit)| !unit.is_empty());
+    // A coordinate that is observed has its unit already.
+    let mut names = HashSet::new();
+    texts.retain(|(name, unit)| !unit.is_empty() && names.insert(name.clone()));
     Texts(texts)
 }
 

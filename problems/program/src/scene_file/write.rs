@@ -18,7 +18,8 @@ struct Record<'a> {
     end_after: &'a [String],
     #[serde(skip_serializing_if = "Option::is_none")]
     max_events: Option<usize>,
-    tolerance: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tolerance: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<f64>,
     #[serde(skip_serializing_if = "is_false")]
@@ -124,7 +125,8 @@ pub fn write<'a>(
         until: request.until.unwrap_or(scene.until()),
         end_after: &request.end_after,
         max_events: request.max_events,
-        tolerance: request.tolerance,
+        // An error is kept whatever the tolerance.
+        tolerance: request.error.is_none().then_some(request.tolerance),
         error: request.error,
         estimate: request.estimate,
         method: request.method.to_string(),
