@@ -3,7 +3,6 @@
 
 use super::series::{ACOS, ASIN, ATAN, COSH, EXP, LN, SINH, TAN, TANH};
 use super::{BYTES, Declaration, op};
-use crate::error::Shortest;
 use core::f64::consts::{PI, TAU};
 use std::collections::BTreeMap;
 
@@ -156,7 +155,7 @@ impl Operations {
     }
 
     /// Whether a value may be infinite between finite ones: the tangent of what varies is in it, or what varies is divided by.
-    fn has_poles(&self, value: usize) -> bool {
+    pub(crate) fn has_poles(&self, value: usize) -> bool {
         let varies = |value: usize| {
             let mut parts = self.within([value]).list.into_iter();
             parts.any(|o| matches!(o.code, op::TIME | op::POSITION | op::FORCE | op::LOAD))
@@ -172,22 +171,18 @@ impl Operations {
         self.list.iter().any(|o| o.function() == Some(LN))
     }
 
-    /// Why an operation has no finite value for this operand, in words; nothing of sums and products, which only hand one on.
+    /// Why an operation has no value for this operand, in words; nothing where one is beyond all numbers.
     pub(super) fn no_value(&self, operation: &Operation, x: f64) -> Option<String> {
-        let of = |name: &str| Some(format!("{name}({})", Shortest(x)));
+        let of = |name: &str| Some(format!("{name}({x})"));
         match operation.code {
             op::POWER if self.exponent(operation) < 0.0 && x == 0.0 => {
                 Some("a division by 0".to_owned())
             }
             op::POWER if x < 0.0 => Some(format!("({x})^{}", self.exponent(operation))),
-            op::POWER => Some(format!("{x}^{}", self.exponent(operation))),
             _ => match operation.function()? {
                 LN => of("ln"),
                 ASIN => of("asin"),
                 ACOS => of("acos"),
-                EXP => of("exp"),
-                SINH => of("sinh"),
-                COSH => of("cosh"),
                 _ => None,
             },
         }

@@ -75,7 +75,9 @@ impl<T: Scalar> Run<T> {
             return Ok(());
         }
         let before = core::mem::replace(&mut self.stepper.rejected, work.rejected);
-        match work.rejected.saturating_sub(before) > MOST_TRIES * STEPS_OF_TRIES {
+        let vain = work.rejected.saturating_sub(before) > MOST_TRIES * STEPS_OF_TRIES;
+        // Breaks of guards have a number of their own.
+        match vain && self.stepper.breaks == 0 {
             true => Err(self.step_too_small(self.stepper.step.h.value())),
             false => Ok(()),
         }
@@ -97,8 +99,8 @@ impl<T: Scalar> Run<T> {
             core::mem::swap(&mut self.now.state, &mut self.stepper.scratch);
             (self.now.valued, self.now.series) = (self.locator.rests.is_empty(), Progress::None);
         }
-        self.look_for_still_watches(end);
         self.log_marks(end, exact.value());
+        self.look_for_still_watches(end);
         self.remember_sides(end);
         self.remember_regions(end);
         self.locator.polynomials.raise(end);

@@ -66,10 +66,10 @@ impl<T: Scalar> Run<T> {
         {
             if self.exponentials_overflow() {
                 *cause = NotFinite::Exponential;
-            } else if self.is_out_of_range() {
-                *cause = NotFinite::Range;
             } else if let Some((name, why)) = self.item_without_value() {
                 (*what, *item) = (format!("`{name}`, with {why} in it,"), Some(name));
+            } else if self.is_out_of_range() {
+                *cause = NotFinite::Range;
             }
         }
         error

@@ -71,10 +71,10 @@ impl<T: Scalar> Run<T> {
         if curves.stops.is_empty() && curves.marks.is_empty() {
             return false;
         }
-        self.state_at_end(end);
-        let State { q, v, .. } = &self.stepper.scratch;
-        let largest = |x: &[T]| x.iter().fold(1.0_f64, |size, x| size.max(x.value().abs()));
-        let (extent, speed) = (largest(q), largest(v));
+        let State { q, v, .. } = &self.now.state;
+        let larger = |size: f64, x: &T| size.max(x.value().abs());
+        let speed = v.iter().fold(1.0, larger);
+        let size = q.iter().fold(speed, larger);
         let is_nearly_zero = |term: Guard| {
             let curves = &self.locator.polynomials;
             let curve = match term {
@@ -82,16 +82,21 @@ impl<T: Scalar> Run<T> {
                 Guard::Mark(i, k) => curves.mark_term(i, k),
                 _ => return false,
             };
-            polynomial_value(curve, end).abs() <= NEARLY_ZERO * extent.max(speed)
+            polynomial_value(curve, end).abs() <= NEARLY_ZERO * size
         };
-        let at_rest = |v: &T| v.value().abs() <= AT_REST * speed;
-        if !self.watched_terms().any(is_nearly_zero) || !v.iter().any(at_rest) {
+        if !self.watched_terms().any(is_nearly_zero) {
             return false;
         }
-        let resting: Vec<bool> = v.iter().map(at_rest).collect();
+        self.state_at_end(end);
+        let at_rest = |v: &T| v.value().abs() <= AT_REST * speed;
+        if !self.stepper.scratch.v.iter().any(at_rest) {
+            return false;
+        }
+        let resting: Vec<bool> = self.stepper.scratch.v.iter().map(at_rest).collect();
         let terms: Vec<Guard> = self.watched_terms().collect();
         let found = self.still_terms(&terms, &resting);
-        self.now.valued = false;
+        self.ask_for_guards();
+        self.now.outdate();
         self.locator.still = StillWatches {
             mode: Some(self.now.mode.clone()),
             terms: found,
@@ -138,7 +143,13 @@ impl<T: Scalar> Run<T> {
             let velocity = self.description().rows[row].velocity;
             self.dynamics.motion(velocity).value() != 0.0
         });
-        if driven {
+        // At its turning point a coordinate is held for an instant.
+        let beside = self.free_shares();
+        let turns = held
+            .iter()
+            .zip(beside)
+            .any(|(held, free)| *held && free > HELD);
+        if driven || turns {
             return Vec::new();
         }
         let [before, after] = [(t, &here), (later, &there)].map(|(t, state)| {

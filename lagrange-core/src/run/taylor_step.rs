@@ -7,10 +7,12 @@ use super::singular::{LEAST_DEGREE, MOST_RETREATS, RETREAT, UNDECIDED};
 use super::stepping::{JUST_BEFORE, Stepper};
 use crate::arithmetic::quad::{Quad, QuadBody, side_by_side};
 use crate::arithmetic::{Scalar, epsilon};
+use crate::declaration::Operations;
 use crate::dynamics::Dynamics;
 use crate::error::Error;
 use crate::integrate::taylor::{self, Verdict};
 use crate::integrate::{onto_step, powers_of};
+use crate::modes::guard::Guard;
 use crate::trajectory::State;
 
 /// Where rounding hides how a guard begins, the step is made shorter by this.
@@ -411,7 +413,7 @@ impl<T: Scalar> Run<T> {
     }
 
     /// What rounding of the state at part `looked` of the step makes of each guard, as far as guesses say: positions may be counted from far away, and springs
-    /// be stiff. Nothing is known where that cannot be evaluated. `dynamics` and `scratch` end as they were.
+    /// be stiff. Nothing is known where that cannot be evaluated, and nothing of what is watched close to its poles: there rounding explains everything. `dynamics` and `scratch` end as they were.
     fn rounding_of_guards(&mut self, looked: f64) -> Vec<f64> {
         let values = |run: &mut Self| {
             let curves = &run.locator.polynomials;
@@ -432,10 +434,28 @@ impl<T: Scalar> Run<T> {
                 }
             }
         }
+        for (index, most) in most.iter_mut().enumerate() {
+            let guard = self.locator.polynomials.get(index).map(|(guard, _)| guard);
+            if guard.is_some_and(|guard| self.has_poles(guard)) {
+                *most = 0.0;
+            }
+        }
         match self.evaluate_end(looked) {
             Ok(()) => most,
             Err(_) => Vec::new(),
         }
+    }
+
+    /// Whether what a stop or mark watches is divided by what varies.
+    fn has_poles(&self, guard: Guard) -> bool {
+        let declaration = self.dynamics.system().declaration();
+        let terms = match guard {
+            Guard::Stop(i, _) => declaration.stops[i],
+            Guard::Mark(i, _) => declaration.marks[i],
+            _ => None,
+        };
+        let mut terms = terms.unwrap_or_default().iter();
+        terms.any(|&value| Operations::of(declaration, [value]).has_poles(value))
     }
 
     /// The same as far as a shorter step makes it smaller.

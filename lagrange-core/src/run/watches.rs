@@ -275,6 +275,9 @@ impl<T: Scalar> Run<T> {
         }
         let mut marks = core::mem::take(&mut self.locator.marks);
         self.marks_until(end, &mut marks);
+        if !marks.is_empty() && self.look_for_still_watches(end) {
+            self.marks_until(end, &mut marks);
+        }
         let resolution = self.resolution_of_time() * self.stepper.step.h.value();
         for &(mark, s) in &marks {
             let s = self.sharpened_mark(mark, s).min(last);

@@ -207,9 +207,15 @@ impl<T: Scalar> Decider<T> {
         dynamics: &mut Dynamics<T>,
         moment: EvaluationPoint<'_, T>,
     ) -> Result<Around, EvaluationError> {
-        for order in 1..=LATEST {
-            if let Some(around) = self.look_around(dynamics, moment, order)? {
-                return Ok(around);
+        if let Some(around) = self.look_around(dynamics, moment, 1)? {
+            return Ok(around);
+        }
+        let (f, guess) = (self.beginning.frictions[0], self.beginning.angles[0]);
+        for order in 2..=LATEST {
+            let Turn { along, across } = turn_of(dynamics, moment, f, guess, order)?;
+            if (along, across) != (0.0, 0.0) {
+                let around = self.look_around(dynamics, moment, order)?;
+                return Ok(around.unwrap_or(Around::Nothing));
             }
         }
         Ok(Around::Nothing)

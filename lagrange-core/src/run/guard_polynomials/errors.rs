@@ -170,12 +170,13 @@ impl GuardPolynomials {
                 let blur = if guard.is_force() { blur } else { 0.0 };
                 let allowed = allowance::<T>(guard, tolerance, located).max(blur);
                 let error = (found - value).abs();
+                let rounding = rounding.get(index).copied().unwrap_or(0.0);
                 GuardError {
                     error,
                     allowed: allowed * size(value, c).max(least),
                     rounding: self
                         .rounding(error, guard, dynamics)
-                        .max(rounding.get(index).copied().unwrap_or(0.0))
+                        .max(rounding)
                         .max(self.change_in_no_time(guard, c, value, dynamics)),
                     other_side: !located && (found < 0.0) != (value < 0.0),
                 }
