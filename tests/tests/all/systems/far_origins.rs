@@ -78,3 +78,54 @@ fn a_pendulum_of_a_thousand_kilometres_meets_its_wall() {
         }
     }
 }
+
+/// A mass that is driven against a wall of spring and damper, which is counted from an origin.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2/2,
+    force(drive: x = strength*sin(rate*t) - 16*(x - origin)),
+    force(wall: x = -max(0, stiffness*(x - origin) + damping*der(x))),
+    mark(changes: der(der(x))),
+)]
+struct Buffer {
+    strength: f64,
+    rate: f64,
+    stiffness: f64,
+    damping: f64,
+    origin: f64,
+}
+
+/// What rounding of the position makes of the force that says when the wall lets go is no reason for shorter steps.
+#[test]
+fn a_stiff_wall_is_left_wherever_it_is_counted_from() {
+    for (method, tolerance) in [("auto", 1e-9), ("auto", 1e-12), ("taylor", 1e-9)] {
+        let mut random = Random::new(29);
+        for k in 0..12 {
+            let drawn = Buffer {
+                strength: random.between(15.0, 40.0),
+                rate: random.between(2.0, 5.0),
+                stiffness: 10.0_f64.powf(random.between(4.0, 6.0)),
+                damping: 10.0_f64.powf(random.between(2.0, 3.4)),
+                origin: 0.0,
+            };
+            let far = random.between(0.3, 5.0);
+            let [here, there] = [0.0, far].map(|origin| {
+                let scene = Buffer {
+                    origin,
+                    ..drawn.clone()
+                };
+                let simulation = Simulation::new(&scene).tolerance(tolerance).max_steps(5000);
+                let simulation = simulation.method(method.parse::<Method>().expect("a method"));
+                let run = simulation.run(state(&[origin - 0.01], &[0.0]), 0.0..3.0);
+                let run =
+                    run.unwrap_or_else(|failure| panic!("{method} {tolerance:e}, {k}: {failure}"));
+                let end = run.final_state();
+                [end.q[0] - origin, end.v[0]]
+            });
+            let asked = format!("{method} {tolerance:e}, {k}");
+            agree(&asked, there[0], here[0], 1e4 * tolerance);
+            agree(&asked, there[1], here[1], 1e5 * tolerance);
+        }
+    }
+}

@@ -378,3 +378,40 @@ fn what_slides_along_a_border_is_on_the_table_until_it_is_blown_off() {
         }
     }
 }
+
+/// A mass in a round track that reaches from side to side, where it touches the edge, and no farther.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2)/2,
+    potential = gravity*y,
+    contact(track: sqrt(x^2 + (y - radius)^2) <= radius, where x >= -radius),
+)]
+struct Track {
+    radius: f64,
+    gravity: f64,
+}
+
+/// Fast enough it stays on the track for ever, with v² = v₀² − 2 g y.
+#[test]
+fn an_edge_that_is_only_touched_is_not_left() {
+    for (method, tolerance) in methods_at(["taylor", "auto", "dop853", "verner98"], TOLERANCES) {
+        let mut random = Random::new(53);
+        for k in 0..20 {
+            let radius = random.between(0.3, 3.0);
+            let scene = Track {
+                radius,
+                gravity: 9.81,
+            };
+            let speed = (random.between(5.2, 9.0) * 9.81 * radius).sqrt();
+            let start = state(&[0.0; 2], &[-speed, 0.0]);
+            let run = run_by(&scene, (method, tolerance), start, 10.0 * radius / speed);
+            let asked = format!("{method} {tolerance:e}, {k}");
+            assert_eq!(words(&run).len(), 0, "{asked}: {:?}", words(&run));
+            let end = run.final_state();
+            let square = end.v[0].powi(2) + end.v[1].powi(2);
+            let expected = speed * speed - 2.0 * 9.81 * end.q[1];
+            agree(asked, square / expected, 1.0, 1e3 * tolerance);
+        }
+    }
+}

@@ -48,6 +48,7 @@ mod grazes;
 mod groove;
 mod handovers;
 mod held;
+mod held_bodies;
 mod hoop;
 mod icing;
 mod idle_coordinates;

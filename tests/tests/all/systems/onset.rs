@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{METHODS, TOLERANCES, agree, event, methods_at, root, run, run_by};
+use lagrange_tests::{METHODS, Random, TOLERANCES, agree, event, methods_at, root, run, run_by};
 
 /// A sledge whose inertia differs along and across, pushed ever harder.
 #[derive(Lagrangian, Clone, Debug)]
@@ -87,6 +87,68 @@ fn what_is_read_as_a_slip_begins_has_its_direction() {
             for output in [Turning::ALONG_X, Turning::ALONG_Y] {
                 let expected = before.observe(output) / 2.0;
                 agree(&what, after.observe(output), expected, 10.0 * tolerance);
+            }
+        }
+    }
+}
+
+/// A pad that is pressed and pulled by loads that grow from zero, with inertia that differs along and across.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    define(load = linear*t + square*t^2 + cube*t^3),
+    kinetic = light/2 * der(x)^2 + heavy/2 * der(y)^2,
+    force(shove: x = pull_x * load),
+    force(push: y = pull_y * load),
+    friction(pad: slip = (der(x), der(y)), normal = load, static = rough),
+)]
+struct Pressed {
+    light: f64,
+    heavy: f64,
+    linear: f64,
+    square: f64,
+    cube: f64,
+    pull_x: f64,
+    pull_y: f64,
+    rough: f64,
+}
+
+/// With loads N(t) the velocities are w ∫N, where (mᵢ α + μ) uᵢ = Fᵢ/N and w = α u, and |u| = 1 gives α: no force acts when the slip begins.
+#[test]
+fn slip_begins_under_loads_that_grow_from_zero() {
+    for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+        let mut random = Random::new(31);
+        for k in 0..12 {
+            let size = random.between(1.0, 20.0);
+            let grows = |order: usize| if k % 3 == order { size } else { 0.0 };
+            let (pull, angle) = (random.between(0.2, 0.6), random.between(0.0, 6.0));
+            let scene = Pressed {
+                light: random.between(0.5, 1.0),
+                heavy: random.between(1.0, 4.0),
+                linear: grows(0),
+                square: grows(1),
+                cube: grows(2),
+                pull_x: pull * angle.cos(),
+                pull_y: pull * angle.sin(),
+                rough: pull * random.between(0.05, 0.9),
+            };
+            let masses = [scene.light, scene.heavy];
+            let pulls = [scene.pull_x, scene.pull_y];
+            let direction =
+                |alpha: f64| [0, 1].map(|i| pulls[i] / (masses[i] * alpha + scene.rough));
+            let excess = |alpha: f64| direction(alpha).iter().map(|u| u * u).sum::<f64>() - 1.0;
+            let alpha = root(excess, 0.0, 10.0);
+            let (end, power) = (0.8_f64, 2.0 + (k % 3) as f64);
+            let pressed = size * end.powf(power) / power;
+            let run = run_by(
+                &scene,
+                (method, tolerance),
+                state(&[0.0; 2], &[0.0; 2]),
+                end,
+            );
+            for (v, u) in run.final_state().v.iter().zip(direction(alpha)) {
+                let asked = format!("{method} {tolerance:e}, {k}");
+                agree(asked, *v, alpha * u * pressed, 1e2 * tolerance * size);
             }
         }
     }
