@@ -91,12 +91,10 @@ impl<T: Scalar> Run<T> {
 
     /// An item whose logarithm has derivatives at the present state, and no value.
     pub(super) fn check_logarithms(&self) -> Result<(), Error> {
-        if !self.has_logarithms {
-            return Ok(());
-        }
-        match self.item_without_value() {
-            None => Ok(()),
-            Some(_) => Err(self.overflow(self.not_finite(self.description().name))),
+        match self.has_logarithms && self.item_without_value().is_some() {
+            // Its name is told by whoever looks for the cause.
+            true => Err(self.not_finite(self.description().name)),
+            false => Ok(()),
         }
     }
 

@@ -13,7 +13,7 @@ use crate::modes::guard::{self, Guard};
 use crate::modes::held::conditions;
 use crate::modes::reading::Reading;
 use crate::modes::table::Table;
-use crate::system::ValueRef;
+use crate::system::{Description, ValueRef};
 
 /// Order of the series that are looked at first. Leading coefficients beyond it vanish rarely.
 const LOW_ORDER: usize = 4;
@@ -331,11 +331,8 @@ impl<T: Scalar> Decider<T> {
             size(row.velocity) > APART * speeds.sum::<f64>() + CANCELLED * pushed
         });
         if apart {
-            let guard = |&f: &usize| match d.frictions[f].components {
-                1 => Guard::StickUpper(f),
-                _ => Guard::StickCone(f),
-            };
-            self.violated.extend(sticking.iter().map(guard));
+            let stuck = sticking.iter().map(|&f| blamed(f, d));
+            self.violated.extend(stuck);
             if sticking.is_empty() {
                 self.violated
                     .extend(closed.iter().map(|&c| Guard::Normal(c)));
@@ -380,10 +377,7 @@ impl<T: Scalar> Decider<T> {
         }
         dynamics.value(t, q, v)?;
         if changes {
-            self.violated.push(match d.frictions[f].components {
-                1 => Guard::StickUpper(f),
-                _ => Guard::StickCone(f),
-            });
+            self.violated.push(blamed(f, d));
         }
         Ok(changes)
     }
@@ -537,5 +531,13 @@ impl<T: Scalar> Decider<T> {
         let mut doubtful = self.doubtful.iter();
         let shaken = doubtful.find_map(|doubt| (doubt.guard == guard).then_some(doubt.size));
         self.sizes.of(guard, dynamics).max(shaken.unwrap_or(0.0))
+    }
+}
+
+/// The guard that is blamed where friction `f` cannot stick, on whichever side.
+fn blamed(f: usize, d: &Description) -> Guard {
+    match d.frictions[f].components {
+        1 => Guard::StickUpper(f),
+        _ => Guard::StickCone(f),
     }
 }

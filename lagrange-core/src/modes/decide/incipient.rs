@@ -221,7 +221,7 @@ impl<T: Scalar> Decider<T> {
         Ok(Around::Nothing)
     }
 
-    /// The same by coefficient `order`; nothing if it vanishes in all directions.
+    /// The same by coefficient `order`; nothing if ṡ vanishes in all directions.
     fn look_around(
         &mut self,
         dynamics: &mut Dynamics<T>,
@@ -259,11 +259,8 @@ impl<T: Scalar> Decider<T> {
             }
             low = high;
         }
-        let vanishes = match order {
-            1 => largest <= ROUNDING * size_of(dynamics, f),
-            _ => largest == 0.0,
-        };
-        if vanishes {
+        // A later coefficient is looked at only where it does not.
+        if order == 1 && largest <= ROUNDING * size_of(dynamics, f) {
             return failure.map_or(Ok(None), Err);
         }
         // A slip that can have one direction only, forth and back, may have two roots between two tries.
