@@ -16,6 +16,7 @@ mod equations;
 mod impact;
 mod instant;
 mod joins;
+mod jumps;
 mod motion;
 mod quadrature;
 mod sizes;
@@ -51,6 +52,8 @@ pub enum Subject {
     Energies,
     /// Positions and velocities over a step are the integrals of velocities and accelerations.
     Motion,
+    /// Energies do not jump within a step.
+    Jumps,
     /// Steps and modes join without jumps.
     Joins,
     /// Constraints hold, and so do their rates.
@@ -83,11 +86,12 @@ pub enum Subject {
 
 impl Subject {
     /// All, in the order of a certificate.
-    pub const ALL: [Subject; 18] = [
+    pub const ALL: [Subject; 19] = [
         Subject::Equations,
         Subject::Rows,
         Subject::Energies,
         Subject::Motion,
+        Subject::Jumps,
         Subject::Joins,
         Subject::Constraints,
         Subject::Closed,
@@ -111,6 +115,7 @@ impl Subject {
             Subject::Rows => "accelerations keep constraints",
             Subject::Energies => "reported energies",
             Subject::Motion => "motion over steps",
+            Subject::Jumps => "energies over steps",
             Subject::Joins => "steps join",
             Subject::Constraints => "constraints",
             Subject::Closed => "closed contacts",

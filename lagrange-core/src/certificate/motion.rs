@@ -2,6 +2,7 @@
 
 use super::equations::{Equations, Situation};
 use super::instant::Energies;
+use super::jumps;
 use super::quadrature::gauss;
 use super::watch::{Step, Watches};
 use super::{Certificate, FINEST, Findings, ROUNDINGS, Subject};
@@ -22,6 +23,8 @@ pub(super) struct Examination<'a, T: Scalar> {
     pub equations: Equations,
     pub findings: Findings,
     pub watches: Watches,
+    /// Energies, where they may jump.
+    energies: Option<jumps::Energies>,
     /// Events that have been looked at.
     pub events: usize,
     /// State in which the motion is to go on.
@@ -185,6 +188,18 @@ fn copy<T: Scalar>(state: &State<T>, to: &mut State<f64>) {
     }
 }
 
+/// Takes the polynomials of step `k`.
+fn take_polynomials<T: Scalar>(record: &Trajectory<T>, k: usize, step: &mut Step) {
+    let segment = &record.segments[k];
+    (step.time, step.length) = (segment.t.value(), segment.h.value());
+    (step.end, step.width) = (segment.end.value(), segment.degree + 1);
+    let n = record.start.q.len();
+    let numbers = &record.coefficients[segment.offset..][..2 * n * step.width];
+    step.coefficients.clear();
+    let numbers = numbers.iter().map(|x| x.value());
+    step.coefficients.extend(numbers);
+}
+
 impl<'a, T: Scalar> Examination<'a, T> {
     /// Makes everything ready; `rounding` is that of the numbers of the run.
     fn new(record: &'a Trajectory<T>, declaration: &'static Declaration, rounding: f64) -> Self {
@@ -211,6 +226,13 @@ impl<'a, T: Scalar> Examination<'a, T> {
             ),
             findings: Findings::new(record.asked.tolerance.max(finest), rounding),
             watches: Watches::new(record, declaration, &parameters),
+            energies: jumps::Energies::new(
+                d,
+                declaration,
+                &record.effects,
+                &parameters,
+                record.asked.sizes.clone(),
+            ),
             events: 0,
             expected: start.clone(),
             reached: start.clone(),
@@ -265,6 +287,10 @@ impl<'a, T: Scalar> Examination<'a, T> {
             self.time = t;
             self.begin = begin;
             if h * end > 0.0 {
+                if let Some(energies) = &mut self.energies {
+                    take_polynomials(record, k, &mut self.polynomials);
+                    energies.follow(&self.polynomials, &mut self.findings);
+                }
                 self.place(k, end);
                 copy(&self.scratch, &mut self.last);
                 if let Some(look) = chosen[k] {
@@ -343,15 +369,11 @@ impl<'a, T: Scalar> Examination<'a, T> {
             return Ok(());
         }
         let of_forces = self.watches.needs_forces(mode);
-        let step = &mut self.polynomials;
-        (step.time, step.length) = (segment.t.value(), segment.h.value());
-        (step.end, step.width) = (segment.end.value(), segment.degree + 1);
-        let n = self.begin.q.len();
-        let numbers = &self.record.coefficients[segment.offset..][..2 * n * step.width];
-        step.coefficients.clear();
-        step.coefficients.extend(numbers.iter().map(|x| x.value()));
-        self.watches.follow(step, mode, &mut self.findings);
+        take_polynomials(self.record, k, &mut self.polynomials);
+        self.watches
+            .follow(&self.polynomials, mode, &mut self.findings);
         if of_forces {
+            let n = self.begin.q.len();
             for &(x, _) in &gauss(segment.degree + 2) {
                 let now = self.report(k, 0.5 * segment.end.value() * (1.0 + x))?;
                 let (at, mode) = (now.situation(n), &self.modes[segment.mode]);

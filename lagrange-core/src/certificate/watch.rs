@@ -78,7 +78,7 @@ pub(super) struct Step {
 }
 
 impl Step {
-    fn polynomials(&self, which: usize) -> impl Iterator<Item = &[f64]> {
+    pub fn polynomials(&self, which: usize) -> impl Iterator<Item = &[f64]> {
         let all = self.coefficients.chunks_exact(self.width);
         let n = all.len() / 2;
         all.skip(which * n).take(n)

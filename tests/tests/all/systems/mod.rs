@@ -36,6 +36,7 @@ mod dependent_conditions;
 mod die;
 mod drag;
 mod drawer;
+mod energy_jumps;
 mod fading;
 mod fading_brakes;
 mod falls_flat;

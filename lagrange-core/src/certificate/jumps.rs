@@ -1,0 +1,240 @@
+//! Energies that jump within a step where no branch of their declaration says so: at the cut of an `atan2`, where a square root vanishes that is divided by.
+//!
+//! A potential that jumps refracts what passes it, or reflects it, and a mass that jumps changes velocities; equations of motion that hold on both sides of
+//! it say nothing of that. Between two instants T and V change by the integral of their rates along the step's polynomials, here by Gauss–Legendre
+//! quadrature. Where that is off the time between them is cut in two: an error of the quadrature vanishes then, and a jump is left in one of the parts.
+
+use super::equations::change;
+use super::quadrature::gauss;
+use super::sizes::rounding_of;
+use super::watch::Step;
+use super::{Findings, Subject};
+use crate::declaration::{Declaration, Evaluator, Gradient, Inputs, Operations, Seed};
+use crate::effects::{Effects, Item};
+use crate::integrate::horner;
+use crate::system::Description;
+use core::cmp::Ordering;
+
+/// Places of the quadrature between two instants.
+const POINTS: usize = 8;
+
+/// Two instants that are nearer than this share of a step are not taken apart any further.
+const NARROW: f64 = 1e-13;
+
+/// The share of the first part of what is cut in two: not a half, where symmetric motions have what is singular.
+const FIRST: f64 = 0.48;
+
+/// A step is cut into at most so many parts, for T and V each.
+const PARTS: usize = 512;
+
+/// The energies of a run that may jump, along its steps.
+#[derive(Debug)]
+pub(super) struct Energies {
+    d: &'static Description,
+    evaluator: Evaluator,
+    /// The terms of T and of V that take part.
+    terms: [Vec<usize>; 2],
+    /// What their choices depend on.
+    guards: Vec<usize>,
+    nodes: Vec<(f64, f64)>,
+    /// Per coordinate: the size below which its errors are absolute; empty: 1 for all.
+    least: Vec<f64>,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    acceleration: Vec<f64>,
+    zeros: Vec<f64>,
+    gradients: Vec<Gradient>,
+    /// Parts that the step may still be cut into.
+    parts: usize,
+}
+
+/// An energy at an instant.
+#[derive(Clone, Copy, Debug)]
+struct Value {
+    value: f64,
+    rate: f64,
+}
+
+/// What an energy is measured by at an instant.
+#[derive(Clone, Copy, Debug)]
+struct Sizes {
+    value: f64,
+    reach: f64,
+    rounding: f64,
+}
+
+impl Energies {
+    /// Those of a declaration with these effects, if any of them may jump.
+    pub fn new(
+        d: &'static Description,
+        declaration: &'static Declaration,
+        effects: &Effects,
+        parameters: &[f64],
+        least: Vec<f64>,
+    ) -> Option<Self> {
+        let taking = |values: &[usize], item: fn(usize) -> Item| -> Vec<usize> {
+            let values = values.iter().enumerate();
+            let values = values.filter(|(i, _)| effects.includes(d, item(*i)));
+            values.map(|(_, &value)| value).collect()
+        };
+        let terms = [
+            taking(declaration.kinetic, Item::Kinetic),
+            taking(declaration.potential, Item::Potential),
+        ];
+        let all = terms.concat();
+        if !Operations::of(declaration, all.iter().copied()).may_jump() {
+            return None;
+        }
+        let evaluator = Evaluator::new(declaration, parameters, all);
+        let n = d.coordinates.len();
+        Some(Self {
+            d,
+            guards: evaluator.guards(),
+            evaluator,
+            terms,
+            nodes: gauss(POINTS),
+            least,
+            q: vec![0.0; n],
+            v: vec![0.0; n],
+            acceleration: vec![0.0; n],
+            zeros: vec![0.0; n.max(d.rows.len()).max(d.forces.len())],
+            gradients: vec![Gradient::default(); n],
+            parts: 0,
+        })
+    }
+
+    /// Books how far T and V jump within a step.
+    pub fn follow(&mut self, step: &Step, findings: &mut Findings) {
+        self.evaluator.take_for([]);
+        self.take(step, 0.5 * step.end);
+        // Within a step choices stay as they are.
+        let side = |&guard: &usize| match self.evaluator.value(guard) < 0.0 {
+            true => (guard, Ordering::Less),
+            false => (guard, Ordering::Equal),
+        };
+        let sides: Vec<(usize, Ordering)> = self.guards.iter().map(side).collect();
+        self.evaluator.take_for(sides);
+        for energy in 0..self.terms.len() {
+            // Near a jump an energy may be steep, and then only there.
+            let [(first, begin), (last, end)] = [0.0, step.end].map(|s| {
+                self.take(step, s);
+                (self.value(energy), self.sizes(energy))
+            });
+            let size = begin.value.max(end.value) + begin.reach.min(end.reach);
+            let rounding = begin.rounding + end.rounding;
+            self.parts = PARTS;
+            let negligible = findings.tolerance * size + rounding;
+            let (jump, s) = self.jump(energy, step, [0.0, step.end], [first, last], negligible);
+            let time = step.time + step.length * s;
+            // Not `max`, which would take what is no number for nothing.
+            let jump = if jump <= rounding {
+                0.0
+            } else {
+                jump - rounding
+            };
+            findings.book(Subject::Jumps, jump, size, time, self.d.name);
+        }
+    }
+
+    /// How far an energy jumps between two parts of a step, at which it has these values, and where; nothing where that is negligible.
+    fn jump(
+        &mut self,
+        energy: usize,
+        step: &Step,
+        [a, b]: [f64; 2],
+        [first, last]: [Value; 2],
+        negligible: f64,
+    ) -> (f64, f64) {
+        let mut gained = 0.0;
+        for k in 0..self.nodes.len() {
+            let (x, weight) = self.nodes[k];
+            self.take(step, a + 0.5 * (b - a) * (1.0 + x));
+            gained += 0.5 * (b - a) * step.length * weight * self.value(energy).rate;
+        }
+        // The rate of a root has no value where that vanishes.
+        let gained = if gained.is_finite() { gained } else { 0.0 };
+        let error = (last.value - first.value - gained).abs();
+        let middle = a + FIRST * (b - a);
+        if error <= negligible {
+            return (0.0, b);
+        }
+        if self.parts == 0 || b - a <= NARROW * step.end || !(a < middle && middle < b) {
+            return (error, b);
+        }
+        self.parts -= 1;
+        self.take(step, middle);
+        let between = self.value(energy);
+        let parts = [
+            ([a, middle], [first, between]),
+            ([middle, b], [between, last]),
+        ];
+        let parts = parts.map(|(ends, values)| self.jump(energy, step, ends, values, negligible));
+        // What is no number is worse than any number.
+        match parts[0].0.total_cmp(&parts[1].0) {
+            Ordering::Less => parts[1],
+            _ => parts[0],
+        }
+    }
+
+    /// Takes the state at part `s` of a step.
+    fn take(&mut self, step: &Step, s: f64) {
+        for (x, c) in self.q.iter_mut().zip(step.polynomials(0)) {
+            *x = horner(c, s);
+        }
+        let velocities = self.v.iter_mut().zip(&mut self.acceleration);
+        for ((v, acceleration), c) in velocities.zip(step.polynomials(1)) {
+            let terms = c.iter().rev();
+            let (value, rate) = terms.fold((0.0, 0.0), |(value, rate), c| {
+                (value * s + c, rate * s + value)
+            });
+            (*v, *acceleration) = (value, rate / step.length);
+        }
+        self.evaluator.evaluate(Inputs {
+            time: step.time + step.length * s,
+            q: &self.q,
+            v: &self.v,
+            acceleration: &self.acceleration,
+            forces: &self.zeros,
+            loads: &self.zeros,
+        });
+    }
+
+    /// T or V in the state taken.
+    fn value(&self, energy: usize) -> Value {
+        let terms = self.terms[energy].iter();
+        let start = Value {
+            value: 0.0,
+            rate: 0.0,
+        };
+        terms.fold(start, |sum, &term| Value {
+            value: sum.value + self.evaluator.value(term),
+            rate: sum.rate + self.evaluator.rate(term),
+        })
+    }
+
+    /// How large it is in the state taken, how much it changes when every position and velocity does so on the scale of the tolerance, and what rounding
+    /// makes of it.
+    fn sizes(&mut self, energy: usize) -> Sizes {
+        let seed = |&value: &usize| Seed {
+            value,
+            variation: [0.0; 2],
+            gradient: 1.0,
+        };
+        let seeds: Vec<Seed> = self.terms[energy].iter().map(seed).collect();
+        self.evaluator.sweep(&seeds, &mut self.gradients);
+        let changes = self.gradients.iter();
+        let changes = changes.map(|g| [g.position.sum.abs(), g.velocity.sum.abs(), 0.0]);
+        let mut changes: Vec<[f64; 3]> = changes.collect();
+        let reach = change(&changes, &self.least, [&self.q, &self.v]);
+        let (mut value, mut rounding) = (0.0, 0.0);
+        for &term in &self.terms[energy] {
+            value += self.evaluator.value(term).abs();
+            rounding += rounding_of(self.evaluator.gradient_size(term, 0, &mut changes));
+        }
+        Sizes {
+            value,
+            reach,
+            rounding,
+        }
+    }
+}
