@@ -164,6 +164,9 @@ impl Energies {
         self.parts -= 1;
         self.take(step, middle);
         let between = self.value(energy);
+        if !between.value.is_finite() {
+            return (error, b);
+        }
         let parts = [
             ([a, middle], [first, between]),
             ([middle, b], [between, last]),

@@ -14,11 +14,14 @@ const MOST_EVENTS_AT_ONCE: usize = 40;
 /// Nearer than this to a loss of rank what is left of a residual is amplified: it is taken away to the last bit.
 const NEAR: f64 = 0.7;
 
-/// Each so many steps it is seen how many have been tried in vain:
+/// Each so many steps it is seen how many have been tried in vain, and how far they have come:
 const STEPS_OF_TRIES: usize = 1000;
 
-/// where these are more than so many a step, rounding or a jump says how long steps are, and there is no end to them.
+/// where tries are more than so many a step, rounding or a jump says how long steps are, and there is no end to them;
 const MOST_TRIES: usize = 10;
+
+/// and neither where all of them together are no more than this beside the time.
+const NO_PROGRESS: f64 = 1e-10;
 
 /// Steps between two looks at rows that a step does not leave by more than rounding.
 const STEPS_OF_ROUNDING: usize = 16;
@@ -57,7 +60,7 @@ impl<T: Scalar> Run<T> {
             return Err(self.limit("steps", self.settings.max_steps));
         }
         self.check_reach()?;
-        self.check_tries()?;
+        self.check_progress()?;
         if let Some(monitor) = &self.settings.monitor {
             let time = self.now.t.value();
             monitor.tell(time);
@@ -68,16 +71,18 @@ impl<T: Scalar> Run<T> {
         Ok(())
     }
 
-    /// Whether steps are not tried in vain again and again.
-    fn check_tries(&mut self) -> Result<(), Error> {
+    /// Whether steps come forward, and are not tried in vain again and again.
+    fn check_progress(&mut self) -> Result<(), Error> {
         let work = &self.recorder.trajectory.work;
         if !work.steps.is_multiple_of(STEPS_OF_TRIES) {
             return Ok(());
         }
-        let before = core::mem::replace(&mut self.stepper.rejected, work.rejected);
-        let vain = work.rejected.saturating_sub(before) > MOST_TRIES * STEPS_OF_TRIES;
+        let now = self.now.t.value();
+        let (rejected, before) = core::mem::replace(&mut self.stepper.looked, (work.rejected, now));
+        let vain = work.rejected.saturating_sub(rejected) > MOST_TRIES * STEPS_OF_TRIES;
+        let stands = work.steps > 0 && now - before <= NO_PROGRESS * now.abs();
         // Breaks of guards have a number of their own.
-        match vain && self.stepper.breaks == 0 {
+        match (vain || stands) && self.stepper.breaks == 0 {
             true => Err(self.step_too_small(self.stepper.step.h.value())),
             false => Ok(()),
         }

@@ -24,6 +24,9 @@ const AT_OR_BEFORE: [f64; 6] = [1.0, 0.999, 0.99, 0.9, 0.7, 0.4];
 /// So many times a step is made shorter for what it hides.
 const MOST_SHORTENED: usize = 16;
 
+/// Before anything has been seen of how steps come forward.
+const NOT_LOOKED: (usize, f64) = (0, f64::NEG_INFINITY);
+
 /// What makes the polynomials of a step, and the step at hand.
 #[derive(Debug)]
 pub(super) struct Stepper<T> {
@@ -41,8 +44,8 @@ pub(super) struct Stepper<T> {
     pub(super) astray: f64,
     /// Breaks of guards that were passed since the last step that no guard has bounded so.
     pub(super) breaks: usize,
-    /// Steps that had been tried in vain when that was looked at last.
-    pub(super) rejected: usize,
+    /// Steps that had been tried in vain when that was looked at last, and the time.
+    pub(super) looked: (usize, f64),
     pub(super) stiffness: Stiffness<T>,
     pub(super) resolution: Resolution,
     pub(super) step: StepPolynomial<T>,
@@ -75,7 +78,7 @@ impl<T: Scalar> Stepper<T> {
             guarded: None,
             astray: 0.0,
             breaks: 0,
-            rejected: 0,
+            looked: NOT_LOOKED,
             stiffness: Stiffness::new(settings.method),
             resolution: Resolution::default(),
             step: StepPolynomial::new(n, 1),
@@ -101,7 +104,7 @@ impl<T: Scalar> Stepper<T> {
     pub(super) fn restart(&mut self) {
         self.control = DefectControl::default();
         (self.wanted, self.guarded) = (None, None);
-        (self.breaks, self.rejected) = (0, 0);
+        (self.breaks, self.looked) = (0, NOT_LOOKED);
         self.astray = 0.0;
         self.resolution = Resolution::default();
         if let Some(method) = &mut self.other {
