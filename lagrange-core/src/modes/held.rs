@@ -24,7 +24,8 @@ pub struct HeldBranches<T> {
     held: Vec<bool>,
     /// Of these, those whose guards read no velocities.
     of_positions: Vec<bool>,
-    /// Guards beside the rows.
+    /// Sizes of the guards where they are looked at, and beside the rows.
+    here: Vec<f64>,
     beside: Vec<f64>,
     q: Vec<T>,
     v: Vec<T>,
@@ -87,7 +88,6 @@ impl<T: Scalar> HeldBranches<T> {
         at: EvaluationPoint<'_, T>,
         step: f64,
     ) {
-        let branches = dynamics.description().branches;
         let mut moved = 0;
         let mut beside = |x: &T| {
             moved += 1;
@@ -99,16 +99,17 @@ impl<T: Scalar> HeldBranches<T> {
         self.q.extend(at.q.iter().map(&mut beside));
         self.v.clear();
         self.v.extend(at.v.iter().map(&mut beside));
-        let guard =
-            |dynamics: &Dynamics<T>, b: usize| dynamics.motion(branches[b].guard).value().abs();
+        let sizes = |dynamics: &Dynamics<T>, to: &mut Vec<f64>| {
+            to.clear();
+            to.extend(conditions(dynamics).map(f64::abs));
+        };
         dynamics.set_extra_needs(needs);
         dynamics.tape(t, &self.q, &self.v);
-        self.beside.clear();
-        self.beside
-            .extend((0..branches.len()).map(|b| guard(dynamics, b)));
+        sizes(dynamics, &mut self.beside);
         dynamics.tape(at.t, at.q, at.v);
+        sizes(dynamics, &mut self.here);
         for (b, held) in self.held.iter_mut().enumerate() {
-            *held &= guard(dynamics, b) <= SMALL * self.beside[b];
+            *held &= self.here[b] <= SMALL * self.beside[b];
         }
         if !self.held.contains(&true) {
             return;
@@ -118,14 +119,16 @@ impl<T: Scalar> HeldBranches<T> {
         }
         dynamics.set_extra_needs(needs);
         dynamics.tape(t, &self.q, &self.v);
+        sizes(dynamics, &mut self.here);
         for (b, held) in self.held.iter_mut().enumerate() {
-            *held &= guard(dynamics, b) <= KEPT * self.beside[b];
+            *held &= self.here[b] <= KEPT * self.beside[b];
         }
         self.v.clear();
         self.v.extend(at.v.iter().map(&mut beside));
         dynamics.tape(t, &self.q, &self.v);
+        sizes(dynamics, &mut self.here);
         for (b, of_positions) in self.of_positions.iter_mut().enumerate() {
-            *of_positions = self.held[b] && guard(dynamics, b) <= KEPT * self.beside[b];
+            *of_positions = self.held[b] && self.here[b] <= KEPT * self.beside[b];
         }
     }
 }

@@ -5,10 +5,15 @@
 
 use super::Run;
 use crate::arithmetic::{Scalar, rounding};
+use crate::error::Error;
+use crate::integrate::taylor;
 use crate::mode::FrictionMode;
+use crate::modes::composite::ONES;
+use crate::modes::decide::terms;
 use crate::modes::facts::SwitchFacts;
-use crate::modes::guard::Guard;
+use crate::modes::guard::{self, Guard, LENGTH};
 use crate::modes::held::conditions;
+use crate::modes::reading::Reading;
 
 /// What is left of a condition after an impact is rounding, beside what it was or the largest speed.
 const ROUNDING: f64 = 1e-12;
@@ -169,5 +174,72 @@ impl<T: Scalar> Run<T> {
         facts.lying.copy_from_slice(held.of_positions());
         self.dynamics.set_mode(&self.now.mode);
         self.now.valued = false;
+    }
+
+    /// Puts the branches that read accelerations or forces on the sides on which they are just after a switch. The motion does not depend on them,
+    /// and what they read may have jumped, so that none of the sides before says anything.
+    ///
+    /// # Errors
+    /// The motion has no series here.
+    pub(super) fn take_sides_of_outputs(&mut self) -> Result<(), Error> {
+        let d = self.description();
+        let guards = self.switcher.table.of(&self.dynamics).guards.iter();
+        self.switcher.watched.clear();
+        self.switcher
+            .watched
+            .extend(guards.copied().filter(|guard| guard.is_of_outputs(d)));
+        // One may read what has the side of another, and so on; the last time nothing changes.
+        let count = self.switcher.watched.len();
+        for pass in 0..=count {
+            if count > 0 {
+                self.expand()?;
+            }
+            self.locator
+                .zeros
+                .retain(|(guard, _)| !guard.is_of_outputs(d));
+            let mut changes = false;
+            for k in 0..count {
+                let guard = self.switcher.watched[k];
+                let (vanishing, stays) = self.begins(guard);
+                match guard {
+                    Guard::Branch(b) if !stays && pass < count => {
+                        self.now.mode.set_branch(b, !self.now.mode.branch(b));
+                        changes = true;
+                    }
+                    _ if vanishing > 0 => self.locator.zeros.push((guard, vanishing)),
+                    _ => {}
+                }
+            }
+            if !changes {
+                break;
+            }
+            self.recorder.trajectory.enter(&self.now.mode);
+            self.dynamics.set_mode(&self.now.mode);
+            self.now.outdate();
+            self.hold_guards();
+        }
+        Ok(())
+    }
+
+    /// How many of the first coefficients of the guard of a branch vanish, by the series at hand, and whether the branch is on its side then.
+    fn begins(&self, guard: Guard) -> (usize, bool) {
+        let order = self.stepper.order;
+        let mut row = [0.0; LENGTH];
+        let row = &mut row[..=order];
+        let reading = Reading::Series(&self.dynamics);
+        guard::series(guard, &self.now.mode, &reading, &ONES, row);
+        let tolerance = self.settings.per_step();
+        let reach = taylor::step_size(self.dynamics.state_series(), order, tolerance);
+        let reach = reach.filter(|reach| reach.is_finite()).unwrap_or(1.0);
+        let largest = terms(row.iter().copied(), reach).fold(0.0, f64::max);
+        let is_root = self.locator.fallen.contains(&guard) && row[0].abs() <= LOCATED * largest;
+        let mut sizes = terms(row.iter().copied(), reach).enumerate();
+        let first = sizes
+            .find(|&(k, size)| size > rounding::<T>(ROUNDING) * largest && !(k == 0 && is_root));
+        match (first, guard) {
+            (Some((k, _)), _) => (k, row[k] > 0.0),
+            (None, Guard::Branch(b)) => (LENGTH, self.now.mode.branch(b)),
+            (None, _) => (LENGTH, true),
+        }
     }
 }

@@ -135,7 +135,7 @@ impl<T: Scalar> Run<T> {
             match guard {
                 Guard::Gap(c) => (facts.touching[c], facts.arriving[c]) = (true, true),
                 Guard::Slip(f) => facts.resting[f] = true,
-                Guard::Branch(b) => facts.balanced[b] = true,
+                Guard::Branch(b) => facts.balanced[b] = !guard.is_of_outputs(d),
                 _ => {}
             }
         }
@@ -154,7 +154,9 @@ impl<T: Scalar> Run<T> {
             _ => false,
         };
         facts.again = self.switcher.stuck.len() > 1;
-        for guard in &self.locator.fallen {
+        // Nor does what only outputs depend on.
+        let fallen = self.locator.fallen.iter();
+        for guard in fallen.filter(|guard| !guard.is_of_outputs(d)) {
             let roots = match goes_on(guard) {
                 true => &mut facts.touched,
                 false => &mut facts.located,
@@ -233,6 +235,7 @@ impl<T: Scalar> Run<T> {
             self.project(true)?;
         }
         self.begin_series().map_err(|e| self.error(e))?;
+        self.take_sides_of_outputs()?;
         self.note_forces_that_begin();
         self.switcher.decider.decision.ambiguous |= self.slips_in_name();
         if self.dynamics.has_dependent_rows() {

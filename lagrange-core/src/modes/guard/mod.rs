@@ -79,6 +79,11 @@ impl Guard {
         self.is_force() && !matches!(self, Guard::Composite(_))
     }
 
+    /// Whether it is a condition of accelerations or forces, on which outputs depend and no motion.
+    pub fn is_of_outputs(self, d: &Description) -> bool {
+        matches!(self, Guard::Branch(b) if d.branches[b].after_solve)
+    }
+
     /// The friction that it says how much holds.
     pub fn holding(self) -> Option<usize> {
         match self {
