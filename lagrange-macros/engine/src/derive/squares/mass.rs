@@ -119,26 +119,28 @@ impl Squares {
 
     /// Directions of i that meet, in some squares, those of the partners for coordinates up to i.
     fn pairs(&self, i: usize) -> Vec<Pair> {
-        let mut meetings = Vec::new();
+        // They come in order, nearly, for each j: a chain of n links has n³ / 3 of them.
+        let mut meetings: Vec<Vec<(usize, ExprId, usize)>> = vec![Vec::new(); i + 1];
         for (at, (_, having)) in self.directions[i].iter().enumerate() {
             for &s in having {
                 let others = &self.squares[self.squares[s].partner].slopes;
-                let others = others.iter().filter(|&&(j, _)| j <= i);
-                meetings.extend(others.map(|&(j, other)| ((j, at, other), s)));
+                for &(j, other) in others.iter().filter(|&&(j, _)| j <= i) {
+                    meetings[j].push((at, other, s));
+                }
             }
         }
-        meetings.sort_unstable();
-        let same = meetings.chunk_by(|(one, _), (other, _)| one == other);
-        let pair = |meetings: &[((usize, usize, ExprId), usize)]| {
-            let (j, at, other) = meetings[0].0;
-            Pair {
+        let mut pairs = Vec::new();
+        for (j, mut meetings) in meetings.into_iter().enumerate() {
+            meetings.sort_unstable();
+            let same = meetings.chunk_by(|one, other| (one.0, one.1) == (other.0, other.1));
+            pairs.extend(same.map(|meetings| Pair {
                 j,
-                own: self.directions[i][at].0,
-                other,
-                both: meetings.iter().map(|&(_, s)| s).collect(),
-            }
-        };
-        same.map(pair).collect()
+                own: self.directions[i][meetings[0].0].0,
+                other: meetings[0].1,
+                both: meetings.iter().map(|&(_, _, s)| s).collect(),
+            }));
+        }
+        pairs
     }
 }
 
