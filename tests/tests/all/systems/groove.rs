@@ -108,7 +108,10 @@ fn a_ball_falls_back_to_the_bottom() {
                 swing: 0.5,
                 rate: 5.0,
             };
-            for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+            let all = methods_at(METHODS, TOLERANCES);
+            // Methods of low order take most of the time at the tightest tolerance.
+            for (method, tolerance) in all.filter(|(_, tolerance)| up == 2.0 || *tolerance > 1e-12)
+            {
                 let what = format!("{valley:?} from {beside:e} by {method} at {tolerance:e}");
                 let start = state(&[beside, up.max(-down) * f64::abs(beside)], &[drift, 2.5]);
                 let motion = run_by(&valley, (method, tolerance), start, 4.0);
@@ -168,7 +171,8 @@ fn sides_that_end_at_each_other_hold_a_ball_at_the_bottom() {
             &[valley.bottom + beside, height + 0.1],
             &[valley.speed, valley.swing * valley.rate],
         );
-        for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+        let all = methods_at(METHODS, TOLERANCES);
+        for (method, tolerance) in all.filter(|(_, tolerance)| round < 4 || *tolerance > 1e-12) {
             let what = format!("{valley:?} by {method} at {tolerance:e}");
             let motion = run_by(&valley, (method, tolerance), start.clone(), 5.0);
             let State { q, .. } = motion.final_state();

@@ -313,7 +313,9 @@ fn brakes_hold_what_has_landed_on_all_its_feet() {
                 strength: 3.0,
                 tilt,
             };
-            for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+            let all = methods_at(METHODS, TOLERANCES);
+            for (method, tolerance) in all.filter(|(_, tolerance)| tilt > 0.2 || *tolerance > 1e-12)
+            {
                 let what = format!("{body:?} by {method} at {tolerance:e}");
                 let run = run_by(&body, (method, tolerance), body.at(Braked::TILTED), 3.0);
                 let late = run.events().iter().filter(|event| event.time > 2.0 + 1e-6);

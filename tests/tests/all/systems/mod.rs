@@ -101,6 +101,7 @@ mod rocking_block;
 mod shaken_plates;
 mod shared_loads;
 mod side_by_side;
+mod sized_forces;
 mod skate;
 mod sling;
 mod slinky;
