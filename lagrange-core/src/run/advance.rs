@@ -182,6 +182,8 @@ impl<T: Scalar> Run<T> {
         self.switch()?;
         if self.recorder.trajectory.events.len() > events {
             self.leave_stiffness();
+        } else {
+            self.switcher.silent += 1;
         }
         Ok(())
     }
@@ -208,10 +210,10 @@ impl<T: Scalar> Run<T> {
         });
     }
 
-    /// Counts a switch; too many at one time, or in all, end the run.
+    /// Counts a switch; too many at one time, or in all, those that change nothing among them, end the run.
     fn count_switch(&mut self) -> Result<(), Error> {
         let events = self.recorder.events_before + self.recorder.trajectory.events.len();
-        if events >= self.settings.max_events {
+        if events + self.switcher.silent >= self.settings.max_events {
             return Err(self.limit("events", self.settings.max_events));
         }
         self.switcher.stuck.push(&self.now.mode);

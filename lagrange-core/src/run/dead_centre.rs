@@ -1,4 +1,4 @@
-//! Frictions whose slip is zero at the start however fast the motion is: the slider of a crank in its dead centre.
+//! Frictions whose slip is zero at an instant however fast the motion is: the slider of a crank in its dead centre.
 //!
 //! Nothing holds a crank there by rubbing on its slider. The cosine of π/2 is 6e-17 in numbers, and a friction that stuck would have
 //! to be as many times larger than what it holds.
@@ -42,13 +42,13 @@ impl<T: Scalar> Run<T> {
     }
 
     /// Whether the Jacobian of the slip of friction `f` is no larger than what the rounding of the positions makes of it.
-    fn acts_by_rounding(&mut self, f: usize) -> bool {
+    pub(super) fn acts_by_rounding(&mut self, f: usize) -> bool {
         let [less, here, more] =
             [-ROUNDING, 0.0, ROUNDING].map(|units| self.jacobian_beside(f, units));
         less.max(more) > GROWS * here
     }
 
-    /// Size of the Jacobian of the slip of friction `f` so many units of rounding beside the start. No two positions are off by the same,
+    /// Size of the Jacobian of the slip of friction `f` so many units of rounding beside the present state. No two positions are off by the same,
     /// so that differences of them are off as well.
     fn jacobian_beside(&mut self, f: usize, units: f64) -> f64 {
         let d = self.description();

@@ -54,6 +54,8 @@ pub(super) struct Switcher<T> {
     pub(super) redundant: RedundantForces<T>,
     /// Modes of the switches since time last advanced.
     pub(super) stuck: Pool<Mode>,
+    /// Switches so far of which nothing was logged.
+    pub(super) silent: usize,
     /// When the present mode began, s.
     pub(super) since: f64,
 }
@@ -79,6 +81,7 @@ impl<T: Scalar> Switcher<T> {
             table: Table::default(),
             redundant: RedundantForces::default(),
             stuck: Pool::default(),
+            silent: 0,
             since: 0.0,
         }
     }
@@ -89,6 +92,7 @@ impl<T: Scalar> Switcher<T> {
         self.train.restart();
         self.redundant.restart();
         self.stuck.clear();
+        self.silent = 0;
         self.decider.restart();
     }
 }

@@ -163,9 +163,10 @@ impl<T: Scalar> Run<T> {
         mode.clone_from(&self.now.mode);
         mode.contacts.copy_from_slice(&facts.touching);
         mode.release_sticking();
-        for (friction, resting) in mode.frictions.iter_mut().zip(&facts.resting) {
-            if *resting {
-                *friction = FrictionMode::Stick;
+        for f in 0..facts.resting.len() {
+            // In a dead centre a slip is zero however fast the motion is: it does not hold what moves on.
+            if facts.resting[f] && !self.acts_by_rounding(f) {
+                self.switcher.scratch_mode.frictions[f] = FrictionMode::Stick;
             }
         }
         self.dynamics.set_mode(&self.switcher.scratch_mode);

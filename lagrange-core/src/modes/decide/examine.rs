@@ -324,11 +324,16 @@ impl<T: Scalar> Decider<T> {
         let apart = dynamics.acting_rows().iter().any(|&index| {
             let row = &d.rows[index];
             let speeds = row.jacobian.iter();
-            // A velocity that is zero is so only to rounding of the unit.
-            let speeds = speeds
-                .map(|&(j, place)| size(place) * (largest(dynamics.velocity_series(j)) + AT_REST));
+            let speeds = speeds.map(|&(j, place)| {
+                // A velocity that is zero is so only to rounding of the unit.
+                let rest = f64::EPSILON * AT_REST;
+                size(place) * (APART * largest(dynamics.velocity_series(j)) + rest)
+            });
             let pushed = (self.sizes.acceleration(index, dynamics) + pushed) * h;
-            size(row.velocity) > APART * speeds.sum::<f64>() + CANCELLED * pushed
+            // What is left of a rate at the instant does not grow.
+            let rate = reading.motion(row.velocity);
+            let grown = terms(rate.as_slice().iter().map(|c| c.value()), h).skip(1);
+            grown.fold(0.0, f64::max) > speeds.sum::<f64>() + CANCELLED * pushed
         });
         if apart {
             let stuck = sticking.iter().map(|&f| blamed(f, d));

@@ -23,7 +23,8 @@ const INSTANT: f64 = 1e-3;
 /// enough: guards are looked at
 const ROUNDING: f64 = 1e-12;
 
-/// over no more than so many times the time in which those forces would move a coordinate by its unit.
+/// over no more than so many times the time in which those forces would move a coordinate by its unit. Series that end reach everywhere, and are looked
+/// at over that time as well, whatever the unit of time is.
 const TIMES: f64 = 10.0;
 
 /// So many composite guards at most begin at their border.
@@ -56,7 +57,7 @@ impl<T: Scalar> Clone for Ahead<'_, T> {
 impl<T: Scalar> Copy for Ahead<'_, T> {}
 
 impl<T: Scalar> Decider<T> {
-    /// How far the series of the state at hand reach with this error, s; 1 if they end.
+    /// How far the series of the state at hand reach with this error, s; 1 if they end and nothing drives.
     pub(super) fn reach(
         &self,
         dynamics: &Dynamics<T>,
@@ -64,20 +65,23 @@ impl<T: Scalar> Decider<T> {
         allowed: Tolerance<'_>,
     ) -> f64 {
         let step = taylor::step_size(dynamics.state_series(), order, allowed);
-        let step = step.filter(|h| h.is_finite()).unwrap_or(1.0);
+        let step = step.filter(|h| h.is_finite());
         let coordinates = (0..dynamics.acceleration().len())
             .map(|j| (j, self.sizes.of_coordinate(j)))
             .filter(|(_, size)| *size > 0.0);
         let rounding =
             |(j, size): (usize, f64)| dynamics.acceleration()[j].value().abs() <= ROUNDING * size;
-        if !coordinates.clone().all(rounding) {
+        if let Some(step) = step
+            && !coordinates.clone().all(rounding)
+        {
             return step;
         }
         let times = coordinates.map(|(j, size)| {
             let unit = 1.0 + dynamics.position_series(j)[0].value().abs();
             TIMES * (unit / size).sqrt()
         });
-        times.fold(step, f64::min)
+        let time = times.fold(step.unwrap_or(f64::INFINITY), f64::min);
+        if time.is_finite() { time } else { 1.0 }
     }
 
     /// Looks at the guards in question just after the moment. `None`: one of them vanishes to this order, and more is to

@@ -198,6 +198,81 @@ fn what_rubs_does_not_stick_in_its_dead_centre() {
     }
 }
 
+/// Slower by any factor the motion is the same, with forces less by its square: what tells that the rows come apart has no unit of time.
+#[test]
+fn nor_does_it_however_slowly_it_begins() {
+    for scale in [1e-10, 1e-5, 1e5, 1e10] {
+        let yoke = Yoke {
+            inertia: 0.3,
+            mass: 2.0,
+            crank: 0.5,
+            dry: 1.5 * scale,
+            torque: 2.0 * scale,
+        };
+        let rate_of_time = scale.sqrt();
+        for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+            let asked = format!("forces times {scale:e} by {method} at {tolerance:e}");
+            let start = yoke.at(Yoke::DEAD);
+            let run = run_by(&yoke, (method, tolerance), start, 1.0 / rate_of_time);
+            assert_eq!(run.events().len(), 1, "{asked}");
+            assert_eq!(times(&run, "rub", "slips"), [0.0], "{asked}");
+            let end = run.final_state();
+            let (theta, rate) = (end.q(Yoke::THETA), end.v(Yoke::THETA));
+            assert!(theta > 1.5 && theta < PI, "{asked}: {theta}");
+            let inertia = yoke.inertia + yoke.mass * (yoke.crank * theta.sin()).powi(2);
+            let way = yoke.crank * (1.0 - theta.cos());
+            let work = yoke.torque * theta - yoke.dry * way;
+            // The tolerance of velocities is that of a rate of 1.
+            let bound = 10.0 * tolerance * (1.0 / rate_of_time).clamp(1.0, 100.0);
+            agree(&asked, 0.5 * inertia * rate * rate / work, 1.0, bound);
+        }
+    }
+}
+
+/// A shaft that rubs in its hub, and by an eccentric in the place where that is in its dead centre.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(theta),
+    kinetic = inertia/2 * der(theta)^2,
+    force(motor: theta = torque),
+    friction(hub: slip = der(theta), limit = drag),
+    friction(rub: slip = sin(theta) * der(theta), limit = dry),
+    start(dead: theta = pi),
+)]
+struct Eccentric {
+    inertia: f64,
+    torque: f64,
+    drag: f64,
+    dry: f64,
+}
+
+/// The sine of π is 1e-16 in numbers, so that the slip of the eccentric reverses at once, while that in the hub is still below the tolerance: it
+/// does not end with it, again and again.
+#[test]
+fn a_slip_that_is_zero_in_its_dead_centre_ends_no_other() {
+    for inertia in [0.3, 3e2, 3e5] {
+        let shaft = Eccentric {
+            inertia,
+            torque: 2.0,
+            drag: 0.4,
+            dry: 0.5,
+        };
+        for (method, tolerance) in methods_at(METHODS, [1e-5, 1e-6, 1e-7, 1e-9, 1e-12]) {
+            let asked = format!("{inertia} kg m² by {method} at {tolerance:e}");
+            let start = shaft.at(Eccentric::DEAD);
+            let run = run_by(&shaft, (method, tolerance), start, 1.2 * inertia.sqrt());
+            assert_eq!(times(&run, "rub", "reverses").len(), 1, "{asked}");
+            assert_eq!(run.events().len(), 3, "{asked}");
+            let end = run.final_state();
+            let (theta, rate) = (end.q(Eccentric::THETA), end.v(Eccentric::THETA));
+            assert!(theta > 4.0 && theta < 5.0, "{asked}: {theta}");
+            let work = (shaft.torque - shaft.drag) * (theta - PI) - shaft.dry * (1.0 + theta.cos());
+            let kinetic = 0.5 * inertia * rate * rate;
+            agree(&asked, kinetic / work, 1.0, 100.0 * tolerance);
+        }
+    }
+}
+
 /// A crank that rubs by the way of its pin across, at the side where the pin turns.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
