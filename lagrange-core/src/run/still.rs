@@ -27,7 +27,7 @@ const DEPENDENT: f64 = 1e-20;
 /// By this much time and coordinates are changed.
 const OTHERWISE: f64 = 1e-3;
 
-/// The terms of stops and marks that stay what they are in a mode.
+/// The terms of stops and marks that are zero in a mode, and stay so.
 #[derive(Debug)]
 pub(super) struct StillWatches {
     /// The mode that has been looked at.
@@ -49,14 +49,14 @@ impl StillWatches {
         self.terms.clear();
     }
 
-    /// Whether a term stays what it is in this mode, as far as has been looked.
+    /// Whether a term stays zero in this mode, as far as has been looked.
     pub(super) fn contains(&self, term: Guard, mode: &Mode) -> bool {
         self.terms.contains(&term) && self.mode.as_ref() == Some(mode)
     }
 }
 
 impl<T: Scalar> Run<T> {
-    /// Whether a term of a stop or of a mark is known to stay what it is in the present mode.
+    /// Whether a term of a stop or of a mark is known to stay zero in the present mode.
     pub(super) fn is_still(&self, term: Guard) -> bool {
         self.locator.still.contains(term, &self.now.mode)
     }
@@ -84,7 +84,11 @@ impl<T: Scalar> Run<T> {
             };
             polynomial_value(curve, end).abs() <= NEARLY_ZERO * size
         };
-        if !self.watched_terms().any(is_nearly_zero) {
+        let terms: Vec<Guard> = self
+            .watched_terms()
+            .filter(|&g| is_nearly_zero(g))
+            .collect();
+        if terms.is_empty() {
             return false;
         }
         self.state_at_end(end);
@@ -93,7 +97,6 @@ impl<T: Scalar> Run<T> {
             return false;
         }
         let resting: Vec<bool> = self.stepper.scratch.v.iter().map(at_rest).collect();
-        let terms: Vec<Guard> = self.watched_terms().collect();
         let found = self.still_terms(&terms, &resting);
         self.ask_for_guards();
         self.now.outdate();

@@ -164,9 +164,6 @@ impl<T: Scalar> Run<T> {
                 was_below,
                 known,
             } = term(k);
-            if self.is_still(guard) {
-                continue;
-            }
             let others =
                 |s: f64| (0..watch.terms.len()).all(|j| j == k || self.is_true(term(j), s));
             let mut consider = |s: f64| {
@@ -174,8 +171,17 @@ impl<T: Scalar> Run<T> {
                     visit(s);
                 }
             };
-            if was_below && known.is_none() && begins_true(curve, self.resolution_of_time()) {
+            // What stays zero has come there by an impact, or else its root has been seen.
+            let stays = self.is_still(guard);
+            let begins = match stays {
+                true => self.begins_with_impact(),
+                false => begins_true(curve, self.resolution_of_time()),
+            };
+            if was_below && known.is_none() && begins {
                 consider(0.0);
+            }
+            if stays {
+                continue;
             }
             find_root_until(curve, FARTHER * end, |root| {
                 let (s, _) = self.place(guard, &root);
@@ -190,6 +196,16 @@ impl<T: Scalar> Run<T> {
                 Continue(())
             });
         }
+    }
+
+    /// Whether the step begins where something has been hit.
+    fn begins_with_impact(&self) -> bool {
+        let (events, t) = (
+            self.recorder.trajectory.events.iter().rev(),
+            self.stepper.step.t,
+        );
+        let mut here = events.take_while(|event| event.time == t);
+        here.any(|event| event.kind == EventKind::Impact)
     }
 
     /// Whether a term is true at part `s` of the step or becomes so there, as far as rounding can tell.
@@ -231,14 +247,15 @@ impl<T: Scalar> Run<T> {
     /// Remembers on which side the terms of stops and marks are at part `end` of the step. The term of a mark that has been logged there is on
     /// the side to which it goes.
     pub(super) fn remember_sides(&mut self, end: f64) {
+        let d = self.description();
         let resolution = self.resolution_of_time();
         let curves = &self.locator.polynomials;
         for &i in &curves.stops {
             for (k, below) in self.locator.stop_below[i].iter_mut().enumerate() {
                 let still = &self.locator.still;
-                if !curves.stop_stays(i, k, *below)
-                    && !still.contains(Guard::Stop(i, k), &self.now.mode)
-                {
+                if still.contains(Guard::Stop(i, k), &self.now.mode) {
+                    *below = false;
+                } else if !curves.stop_stays(i, k, *below) {
                     *below = is_below(curves.stop_term(i, k), end, resolution, *below);
                 }
             }
@@ -257,6 +274,7 @@ impl<T: Scalar> Run<T> {
                     .still
                     .contains(Guard::Mark(i, k), &self.now.mode)
                 {
+                    *below &= d.marks[i].zeros;
                     continue;
                 }
                 *below = match passed {

@@ -2,7 +2,9 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{METHODS, Random, TOLERANCES, certified, methods_at, run_by, times, words};
+use lagrange_tests::{
+    METHODS, Random, TOLERANCES, agree, certified, methods_at, run_by, times, words,
+};
 
 /// A bead in a rough bowl, with a force that swings and is too small to move it.
 #[derive(Lagrangian, Clone, Debug)]
@@ -73,5 +75,50 @@ fn what_moves_beside_it_still_turns() {
         assert_eq!(times(&run, "turn", "mark").len(), 0, "{asked}");
         // ω² = 20 with small swings: a turn each 0.70 s.
         assert_eq!(times(&run, "swings", "mark").len(), 14, "{asked}");
+    }
+}
+
+/// A mass that is thrown down beside a wall, pulled to it by a spring, and lands on a floor that keeps it.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    potential = mass*gravity*y + spring/2*x^2,
+    contact(floor: y >= 0),
+    contact(wall: x <= side),
+    stop(landed: der(y) >= 0),
+    mark(met: der(x) <= 0),
+)]
+struct Thrown {
+    mass: f64,
+    gravity: f64,
+    spring: f64,
+    side: f64,
+}
+
+/// It is above the floor when it begins, and the floor takes all of its velocity: `der(y) >= 0` becomes true there, and stays so.
+#[test]
+fn what_an_impact_ends_has_ended() {
+    for (gravity, height, speed) in [(9.81, 1.0, 0.1), (1.62, 0.3, 2.0), (24.8, 2.0, 0.5)] {
+        let lands = ((speed * speed + 2.0 * gravity * height).sqrt() - speed) / gravity;
+        let spring = 3.0 / (lands * lands);
+        // From the middle with the rate v the wall at v sin(ωt)/ω is met after half of the fall.
+        let w = (spring / 0.7_f64).sqrt();
+        let thrown = Thrown {
+            mass: 0.7,
+            gravity,
+            spring,
+            side: (0.5 * w * lands).sin() / w,
+        };
+        for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+            let what = format!("{thrown:?} by {method:?} at {tolerance:e}");
+            let start = state(&[0.0, height], &[1.0, -speed]);
+            let run = run_by(&thrown, (method, tolerance), start, 10.0);
+            agree(&what, run.last_time(), lands, 10.0 * tolerance);
+            let met = times(&run, "met", "mark");
+            assert_eq!(met.len(), 1, "{what}: {:?}", words(&run));
+            agree(&what, met[0], 0.5 * lands, 10.0 * tolerance);
+            certified(&what, &run);
+        }
     }
 }
