@@ -22,7 +22,7 @@ const PAST: [f64; 2] = [1e-3, 1e-6];
 const NO_ROOT: f64 = 0.5;
 
 /// Careful steps begin at this share of what the method would begin with.
-const SHARE: f64 = 0.5;
+pub(super) const SHARE: f64 = 0.5;
 
 /// Careful steps grow by this factor at most, where methods have 5 to 10.
 const GROWTH: f64 = 1.5;

@@ -3,6 +3,7 @@
 use super::Run;
 use super::guard_polynomials::Located;
 use super::hit::Hit;
+use super::sampled_step::SHARE;
 use super::singular::{LEAST_DEGREE, MOST_RETREATS, RETREAT, UNDECIDED};
 use super::stepping::{JUST_BEFORE, Stepper};
 use crate::arithmetic::quad::{Quad, QuadBody, side_by_side};
@@ -59,6 +60,7 @@ impl<T: Scalar> Run<T> {
         let mut closer = 0;
         let (mut corrections, mut shortened) = (0, 0);
         let mut jumps = false;
+        let mut careful = self.settings.careful && self.begins_polynomial(moves);
         loop {
             self.expand()?;
             self.write_polynomial(h, order);
@@ -102,6 +104,12 @@ impl<T: Scalar> Run<T> {
                     Hit::Turned(_) => return Err(self.step_too_small(h)),
                     hit => return Ok(hit),
                 }
+            }
+            // Exact in any step, a careful run differs from another by rounding only: by that of one more step.
+            let part = SHARE * end * h;
+            if core::mem::take(&mut careful) && part > self.resolution(h) {
+                h = part;
+                continue;
             }
             // Evaluated here, the end of the step also serves the event log. A slip that vanishes there has no direction.
             let looked = if self.locator.rests.is_empty() {
@@ -221,6 +229,15 @@ impl<T: Scalar> Run<T> {
                 }
             }
         }
+    }
+
+    /// Whether the step is the first one of a phase whose motion allows any step, as a polynomial does. Flights between impacts that shrink do not count:
+    /// these forget what rounding has made of the motion, and rounding in the middle of one that hardly rises would say when it ends.
+    fn begins_polynomial(&self, moves: f64) -> bool {
+        let mut contacts = 0..self.switcher.impacts.len();
+        moves >= self.end - self.now.t.value()
+            && self.stepper.resolution.longest() == 0.0
+            && !contacts.any(|c| self.bounces(c))
     }
 
     /// What ends the step, at the root of the guard itself where that of its polynomial is farther from it than rounding: the motion may be a polynomial and

@@ -35,7 +35,7 @@ pub(crate) struct Settings {
     pub sizes: Vec<f64>,
     pub method: Method,
     /// Whether steps begin and grow more slowly than the method has it: how fast they may grow is the same at all tolerances, so that two runs could
-    /// begin with the same steps, and with the same errors.
+    /// begin with the same steps, and with the same errors; and what Taylor series follow exactly would be rounded in the same way.
     pub careful: bool,
     pub project_start: bool,
     /// What evaluates the equations of motion.

@@ -4,8 +4,8 @@
 //! the error of the first, to a percent. Unlike defects that are carried along variational equations this needs nothing but to
 //! run again: switches, impacts and accumulations are in it, and so is rounding, which the second run meets in another way.
 //!
-//! Where a run or a phase begins, steps grow as fast as a method lets them, which is the same at all tolerances. The second run is careful there, or it
-//! would make the same steps and the same error.
+//! Where a run or a phase begins, steps grow as fast as a method lets them, which is the same at all tolerances, and free flight is exact whatever the
+//! tolerance is. The second run is careful there, or it would make the same steps, the same error, and the same rounding, which chaos makes large.
 
 use super::runner::Work;
 use crate::arithmetic::{Scalar, epsilon};
@@ -26,7 +26,7 @@ const FINEST: f64 = 4.0;
 /// The same for the other methods, whose estimates of their errors are differences of nearly equal sums.
 const FINEST_SUM: f64 = 512.0;
 
-/// Tolerance of what the run at the tightest one is compared with, over that.
+/// Tolerance of what the run at the tightest one is compared with, over that: nearer ones would differ by less than the error of either.
 const LOOSER: f64 = 10.0;
 
 /// Looser than this a run within an error does not begin: it may miss what happens.
@@ -43,10 +43,12 @@ const FALLS: f64 = 2.0;
 const PATIENCE: usize = 2;
 
 impl Settings {
-    /// The same for a plain run whose error is `factor` times as large, as far as that goes.
+    /// The same for a plain run whose error is `factor` times as large, as far as that goes, with other steps in any case: of two runs to be compared
+    /// one is careful.
     fn finer<T: Scalar>(&self, factor: f64) -> Settings {
         let mut finer = Settings {
             goal: Goal::Tolerance,
+            careful: !self.careful && !self.method.has_fixed_steps(),
             ..self.clone()
         };
         match &mut finer.method {
@@ -54,7 +56,12 @@ impl Settings {
             Method::Gauss6 { step } => *step *= factor.powf(1.0 / 6.0),
             _ => {
                 let finest = self.finest::<T>().min(self.tolerance);
-                finer.tolerance = (self.tolerance * factor).max(finest);
+                let tolerance = self.tolerance * factor;
+                // What is left to the finest is decent or nothing.
+                finer.tolerance = match tolerance < LOOSER * finest {
+                    true => finest,
+                    false => tolerance,
+                };
             }
         }
         finer
@@ -79,15 +86,14 @@ impl Settings {
         }
     }
 
-    /// What a run is compared with: one at a tighter tolerance, or a looser one where there is no tighter, with other steps in any case.
+    /// What a run is compared with: one at a tighter tolerance, or a looser one where there is no tighter.
     fn second<T: Scalar>(&self) -> Settings {
         let tighter = self.finer::<T>(TIGHTER);
-        let second = match tighter.is_as_fine_as(self) {
-            true => self.finer::<T>(LOOSER),
-            false => tighter,
+        let second = match tighter.is_tighter_than(self) {
+            true => tighter,
+            false => self.finer::<T>(LOOSER),
         };
         Settings {
-            careful: !self.method.has_fixed_steps(),
             // Its events and its end are compared.
             record: false,
             ..second
@@ -103,8 +109,9 @@ impl Settings {
         }
     }
 
-    fn is_as_fine_as(&self, other: &Settings) -> bool {
-        (self.method, self.tolerance) == (other.method, other.tolerance)
+    /// Whether a run with these settings is so much more exact than one with the others that what they differ by is the error of that.
+    fn is_tighter_than(&self, other: &Settings) -> bool {
+        self.method != other.method || LOOSER * self.tolerance <= other.tolerance
     }
 }
 
@@ -175,46 +182,50 @@ impl<T: Runnable> Work<T> {
         // The largest difference since they fall no longer: one of them may be small by chance, and other runs would not have it.
         let mut largest = f64::INFINITY;
         loop {
-            let mut possible = largest / SHARE;
             let finer = settings.finer::<T>(factor);
-            let finest = finer.is_as_fine_as(&settings);
-            if finest && stays < PATIENCE {
-                // What the last run differs by is the error of the one before, which may have been far looser.
-                let looser = settings.finer::<T>(LOOSER);
-                let (near, outcome) = self.another(&looser, start, span.clone());
-                let difference = near.difference(self);
-                let apart = difference.error();
-                // It is more exact than that, for as long as differences fall.
-                if outcome.is_ok() && apart * FALLS <= best {
-                    self.trajectory.estimate = Some(looser.estimate(difference));
-                    if apart <= error {
-                        return Ok(());
-                    }
-                    possible = apart;
+            let (mut next, mut refusal) = (None, None);
+            if stays < PATIENCE && finer.is_tighter_than(&settings) {
+                match self.another(&finer, start, span.clone()) {
+                    (work, Ok(())) => next = Some(work),
+                    (_, Err(error @ Error::Interrupted { .. })) => return Err(error),
+                    (_, Err(error)) => refusal = Some(error),
                 }
             }
-            let inexact = |reason| Error::Inexact {
-                asked: error,
-                possible,
-                reason,
-            };
-            if finest || stays == PATIENCE {
+            let Some(mut next) = next else {
+                let mut possible = largest / SHARE;
+                if stays < PATIENCE && refusal.as_ref().is_none_or(is_for_rounding) {
+                    // What the last run differs by is the error of the one before, which may have been far looser.
+                    let looser = settings.finer::<T>(LOOSER);
+                    let (near, outcome) = self.another(&looser, start, span.clone());
+                    let difference = near.difference(self);
+                    let apart = difference.error();
+                    // It is more exact than that, for as long as differences fall.
+                    if outcome.is_ok() && apart * FALLS <= best {
+                        self.trajectory.estimate = Some(looser.estimate(difference));
+                        if apart <= error {
+                            return Ok(());
+                        }
+                        possible = apart;
+                    }
+                }
                 let estimate = self.trajectory.estimate();
-                let reason = estimate.map(|Estimate { difference, .. }| {
-                    let why = match stays == PATIENCE {
-                        true => of_rounding(largest, &settings),
-                        false => of_tolerance(difference.error(), &settings),
-                    };
-                    reason(difference, &why)
+                let reason = match (refusal, estimate) {
+                    (Some(cause), _) => format!("the next run ends early: {cause}"),
+                    (None, Some(Estimate { difference, .. })) => {
+                        let why = match stays == PATIENCE {
+                            true => of_rounding(largest, &settings),
+                            false => of_tolerance(difference.error(), &settings),
+                        };
+                        reason(difference, &why)
+                    }
+                    (None, None) => String::new(),
+                };
+                return Err(Error::Inexact {
+                    asked: error,
+                    possible,
+                    reason,
                 });
-                return Err(inexact(reason.unwrap_or_default()));
-            }
-            let (mut next, outcome) = self.another(&finer, start, span.clone());
-            match outcome {
-                Ok(()) => {}
-                Err(error @ Error::Interrupted { .. }) => return Err(error),
-                Err(cause) => return Err(inexact(format!("the next run ends early: {cause}"))),
-            }
+            };
             let difference = next.difference(self);
             let apart = difference.error();
             (stays, largest) = match apart * FALLS > best {
@@ -251,6 +262,11 @@ impl<T: Runnable> Work<T> {
     fn difference(&self, other: &Self) -> Difference {
         Summary::of(&self.trajectory).compare(&Summary::of(&other.trajectory))
     }
+}
+
+/// Whether a run has ended early because rounding does not let it be as exact as its tolerance asks for.
+fn is_for_rounding(error: &Error) -> bool {
+    matches!(error, Error::Singular { .. } | Error::StepTooSmall { .. })
 }
 
 /// Why runs do not agree, and what would help: that they part, or how far off what differs is, and `why`.
