@@ -331,6 +331,8 @@ impl<T: Scalar> Run<T> {
             let i = self.locator.polynomials.marks[at];
             if self.has_become_true(&d.marks[i], |k| Guard::Mark(i, k)) {
                 self.evaluate()?;
+                // The next step would find it at its start.
+                self.locator.mark_times[i] = self.now.t.value();
                 self.log_here(Subject::Mark(i), EventKind::Mark);
             }
         }
