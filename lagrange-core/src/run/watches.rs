@@ -30,6 +30,8 @@ const FARTHER: f64 = 1.25;
 struct Term<'c> {
     guard: Guard,
     curve: &'c [f64],
+    /// Its value where the step ends.
+    at_end: f64,
     /// Whether it was below zero when the step began.
     was_below: bool,
     /// The part of the step up to which a zero is the one with which it begins, seen before.
@@ -73,6 +75,7 @@ impl<T: Scalar> Run<T> {
                 Term {
                     guard: Guard::Stop(i, k),
                     curve,
+                    at_end: curves.stop_end(i, k),
                     was_below: below[k],
                     known: self.known_zero(curve, below[k], None, resolution),
                 }
@@ -113,14 +116,19 @@ impl<T: Scalar> Run<T> {
                     list.push((i, 0.0));
                 }
                 let taken = self.now.mode.satisfies(watch.conditions);
+                let mut latest = 0.0;
                 find_root_until(curve, FARTHER * last, |root| {
                     let (s, _) = self.place(Guard::Mark(i, 0), &root);
                     let is_known = known.is_some_and(|until| root.s <= until);
                     if taken && !is_known && s <= last {
                         list.push((i, s.min(end)));
+                        latest = s;
                     }
                     Continue::<(), ()>(())
                 });
+                if taken && self.passes_last(end, curve, curves.mark_end(i, 0), latest) {
+                    list.push((i, end));
+                }
             } else {
                 let below = &self.locator.mark_below[i];
                 let term = |k: usize| {
@@ -128,6 +136,7 @@ impl<T: Scalar> Run<T> {
                     Term {
                         guard: Guard::Mark(i, k),
                         curve,
+                        at_end: curves.mark_end(i, k),
                         was_below: below[k],
                         known: self.known_zero(curve, below[k], Some((i, k)), resolution),
                     }
@@ -161,6 +170,7 @@ impl<T: Scalar> Run<T> {
             let Term {
                 guard,
                 curve,
+                at_end,
                 was_below,
                 known,
             } = term(k);
@@ -183,11 +193,13 @@ impl<T: Scalar> Run<T> {
             if stays {
                 continue;
             }
+            let mut latest = 0.0;
             find_root_until(curve, FARTHER * end, |root| {
                 let (s, _) = self.place(guard, &root);
                 if s > end {
                     return Break(());
                 }
+                latest = s;
                 let rises = root.direction == Direction::Rising && !root.grazing;
                 let is_known = known.is_some_and(|until| root.s <= until);
                 if rises && !is_known {
@@ -195,6 +207,9 @@ impl<T: Scalar> Run<T> {
                 }
                 Continue(())
             });
+            if slope(curve, 1.0) > 0.0 && self.passes_last(end, curve, at_end, latest) {
+                consider(1.0);
+            }
         }
     }
 
@@ -208,10 +223,28 @@ impl<T: Scalar> Run<T> {
         here.any(|event| event.kind == EventKind::Impact)
     }
 
+    /// Whether a curve passes zero with the end of the run, whatever rounding makes of its value there: no step follows that would find that. The
+    /// `latest` of its other zeros is before.
+    fn passes_last(&self, end: f64, curve: &[f64], at_end: f64, latest: f64) -> bool {
+        let (t, h) = (self.stepper.step.t.value(), self.stepper.step.h.value());
+        let resolution = self.resolution_of_time();
+        if end < 1.0 || latest >= 1.0 - resolution || !self.is_spent(self.end - (t + h)) {
+            return false;
+        }
+        let between = 0.5 * (latest + 1.0);
+        let before = value(curve, between);
+        before * slope(curve, 1.0) < 0.0
+            && !is_zero(curve, between, before, resolution)
+            && is_zero(curve, 1.0, at_end, resolution)
+    }
+
     /// Whether a term is true at part `s` of the step or becomes so there, as far as rounding can tell.
     fn is_true(&self, term: Term<'_>, s: f64) -> bool {
         let s = self.interpolated(term.guard, s);
-        let now = value(term.curve, s);
+        let now = match s < 1.0 {
+            true => value(term.curve, s),
+            false => term.at_end,
+        };
         now >= 0.0
             || is_zero(term.curve, s, now, self.resolution_of_time()) && slope(term.curve, s) > 0.0
     }

@@ -116,6 +116,10 @@ impl GuardPolynomials {
                 {
                     return Err(error);
                 }
+                if j + 1 == m {
+                    // The coefficients round more than that.
+                    self.list[index].sums.end = sample;
+                }
                 let curve = &mut self.coefficients[index * m..][..m];
                 if j == 0 {
                     curve[0] = sample;

@@ -240,6 +240,16 @@ impl GuardPolynomials {
         self.curve(self.first_mark[i] + k)
     }
 
+    /// Term `k` of stop `i` where the step ends.
+    pub(super) fn stop_end(&self, i: usize, k: usize) -> f64 {
+        self.list[self.first_stop[i] + k].sums.end
+    }
+
+    /// Term `k` of mark `i` where the step ends.
+    pub(super) fn mark_end(&self, i: usize, k: usize) -> f64 {
+        self.list[self.first_mark[i] + k].sums.end
+    }
+
     /// Makes room for curves of `width` coefficients.
     fn shape(&mut self, width: usize) {
         self.width = width;
