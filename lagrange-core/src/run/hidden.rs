@@ -143,14 +143,15 @@ impl Hidden {
             false => (base, Kind::Place),
         });
         let mut roots: Vec<(usize, Kind)> = roots.chain(arcs).collect();
-        let bases = roots.iter().map(|(base, _)| base);
-        let wanted = arguments.iter().map(|(argument, _)| argument);
-        let wanted = wanted.chain(angles.iter().map(|(angle, _)| angle));
-        let wanted = wanted.chain(bases).copied();
-        let evaluator = Evaluator::new(system.declaration(), &system.parameters(), wanted);
+        // Of what reads forces as well a state says nothing.
+        let all: Vec<usize> = values(&arguments, &angles, &roots);
+        let parameters = system.parameters();
+        let evaluator = Evaluator::<f64>::new(system.declaration(), &parameters, all);
         arguments.retain(|&(argument, _)| evaluator.follows_state(argument));
         angles.retain(|&(angle, _)| evaluator.follows_state(angle));
         roots.retain(|&(base, _)| evaluator.follows_state(base));
+        let all = values(&arguments, &angles, &roots);
+        let evaluator = Evaluator::new(system.declaration(), &parameters, all);
         if arguments.is_empty() && angles.is_empty() && roots.is_empty() {
             return None;
         }
@@ -298,6 +299,18 @@ impl Hidden {
             loads: &[],
         });
     }
+}
+
+/// The values that are looked at.
+fn values(
+    arguments: &[(usize, Function)],
+    angles: &[(usize, f64)],
+    roots: &[(usize, Kind)],
+) -> Vec<usize> {
+    let arguments = arguments.iter().map(|(argument, _)| *argument);
+    let angles = angles.iter().map(|(angle, _)| *angle);
+    let bases = roots.iter().map(|(base, _)| *base);
+    arguments.chain(angles).chain(bases).collect()
 }
 
 impl Root {
