@@ -115,12 +115,11 @@ impl Energies {
         let sides: Vec<(usize, Ordering)> = self.guards.iter().map(side).collect();
         self.evaluator.take_for(sides);
         for energy in 0..self.terms.len() {
-            // Near a jump an energy may be steep, and then only there.
             let [(first, begin), (last, end)] = [0.0, step.end].map(|s| {
                 self.take(step, s);
                 (self.value(energy), self.sizes(energy))
             });
-            let size = begin.value.max(end.value) + begin.reach.min(end.reach);
+            let size = begin.value.max(end.value) + begin.reach.max(end.reach);
             let rounding = begin.rounding + end.rounding;
             self.parts = PARTS;
             let negligible = findings.tolerance * size + rounding;

@@ -48,19 +48,23 @@ impl Equations {
         const CHANGES: u64 = 2;
         // Changes follow no rule: by one, such as equal steps from a coordinate to the next, some differences of coordinates would stay as they are, and second
         // differences as in a net, and so would the forces that cancel in them.
-        let changed = |x: &[f64], random: &mut fastrand::Rng| -> Vec<f64> {
+        let changed = |x: &[f64], way: f64, random: &mut fastrand::Rng| -> Vec<f64> {
             let changed = x.iter().map(|x| {
-                let sign = if random.bool() { 1.0 } else { -1.0 };
+                let sign = if random.bool() { way } else { -way };
                 x + sign * (0.5 + random.f64()) * CHANGE * (1.0 + x.abs())
             });
             changed.collect()
         };
         let mut beside = Vec::new();
         for seed in 0..CHANGES {
-            let mut random = fastrand::Rng::with_seed(seed);
-            let (q, v) = (changed(at.q, &mut random), changed(at.v, &mut random));
-            self.balance(Situation { q: &q, v: &v, ..at });
-            beside.push(self.residual.clone());
+            // What is pressed together by less than a change is free one way.
+            for way in [1.0, -1.0] {
+                let mut random = fastrand::Rng::with_seed(seed);
+                let q = changed(at.q, way, &mut random);
+                let v = changed(at.v, way, &mut random);
+                self.balance(Situation { q: &q, v: &v, ..at });
+                beside.push(self.residual.clone());
+            }
         }
         // A force that is a function of the time is rounded as the time is: a fast oscillation far from the beginning.
         self.balance(Situation {

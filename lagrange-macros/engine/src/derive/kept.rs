@@ -34,7 +34,7 @@ pub(super) fn keep_shared(system: &mut System) {
 }
 
 /// All expressions that equations are derived from.
-fn places(system: &mut System) -> Vec<&mut ExprId> {
+pub(super) fn places(system: &mut System) -> Vec<&mut ExprId> {
     let mut places = Vec::new();
     let energies = system.kinetic.iter_mut().chain(&mut system.potential);
     places.extend(energies.map(|term| &mut term.energy));

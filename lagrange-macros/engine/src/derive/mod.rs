@@ -12,6 +12,7 @@ mod friction;
 mod kept;
 mod loads;
 mod needs;
+mod onsets;
 mod outputs;
 mod quadratic;
 mod regular;
@@ -99,6 +100,7 @@ impl Equations {
 /// Derives all equations of a system. None if it is structurally singular, which the sink then tells. Where the pool is
 /// [full](crate::symbolic::Pool::is_full) they are not complete.
 pub fn equations(mut system: System, sink: &mut Diagnostics) -> Option<Equations> {
+    onsets::delay(&mut system);
     if !kept::may_outgrow(&system) {
         return derived(system, sink);
     }

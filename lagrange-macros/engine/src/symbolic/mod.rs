@@ -27,6 +27,7 @@ mod product;
 mod properties;
 mod rational;
 mod root;
+mod sides;
 mod simplify;
 mod square;
 mod sum;

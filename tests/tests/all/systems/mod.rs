@@ -51,6 +51,7 @@ mod groove;
 mod handovers;
 mod held;
 mod held_bodies;
+mod hertz;
 mod hoop;
 mod icing;
 mod idle_coordinates;
