@@ -1,6 +1,7 @@
 //! A step by another method than Taylor's, whose guards are known by samples.
 
 use super::hit::Hit;
+use super::stepping::CAREFUL;
 use super::taylor_step::ASTRAY;
 use super::{Progress, Run};
 use crate::arithmetic::Scalar;
@@ -20,9 +21,6 @@ const PAST: [f64; 2] = [1e-3, 1e-6];
 
 /// A step in which an interpolation vanishes and its guard does not is made shorter by this factor.
 const NO_ROOT: f64 = 0.5;
-
-/// Careful steps begin at this share of what the method would begin with.
-pub(super) const SHARE: f64 = 0.5;
 
 /// Careful steps grow by this factor at most, where methods have 5 to 10.
 const GROWTH: f64 = 1.5;
@@ -125,7 +123,7 @@ impl<T: Scalar> Run<T> {
     fn careful_step(&self, h: f64) -> f64 {
         match self.stepper.wanted {
             Some(_) => h.min(GROWTH * self.stepper.made),
-            None => SHARE * h,
+            None => CAREFUL * h,
         }
     }
 

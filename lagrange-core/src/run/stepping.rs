@@ -21,6 +21,9 @@ pub(super) const JUST_BEFORE: f64 = 0.999;
 /// Parts of the way to an instant at which its forces are looked for.
 const AT_OR_BEFORE: [f64; 6] = [1.0, 0.999, 0.99, 0.9, 0.7, 0.4];
 
+/// Careful steps begin at this share of what the method would begin with.
+pub(super) const CAREFUL: f64 = 0.5;
+
 /// So many times a step is made shorter for what it hides.
 const MOST_SHORTENED: usize = 16;
 

@@ -75,20 +75,8 @@ impl<T: Scalar> Run<T> {
         let larger = |size: f64, x: &T| size.max(x.value().abs());
         let speed = v.iter().fold(1.0, larger);
         let size = q.iter().fold(speed, larger);
-        let is_nearly_zero = |term: Guard| {
-            let curves = &self.locator.polynomials;
-            let curve = match term {
-                Guard::Stop(i, k) => curves.stop_term(i, k),
-                Guard::Mark(i, k) => curves.mark_term(i, k),
-                _ => return false,
-            };
-            polynomial_value(curve, end).abs() <= NEARLY_ZERO * size
-        };
-        let terms: Vec<Guard> = self
-            .watched_terms()
-            .filter(|&g| is_nearly_zero(g))
-            .collect();
-        if terms.is_empty() {
+        let zero = |run: &Self, term| run.term_at(term, end).abs() <= NEARLY_ZERO * size;
+        if !self.watched_terms().any(|term| zero(self, term)) {
             return false;
         }
         self.state_at_end(end);
@@ -97,6 +85,8 @@ impl<T: Scalar> Run<T> {
             return false;
         }
         let resting: Vec<bool> = self.stepper.scratch.v.iter().map(at_rest).collect();
+        let terms = self.watched_terms().filter(|&term| zero(self, term));
+        let terms: Vec<Guard> = terms.collect();
         let found = self.still_terms(&terms, &resting);
         self.ask_for_guards();
         self.now.outdate();
@@ -105,6 +95,16 @@ impl<T: Scalar> Run<T> {
             terms: found,
         };
         !self.locator.still.terms.is_empty()
+    }
+
+    /// A term of a stop or of a mark at part `s` of the step.
+    fn term_at(&self, term: Guard, s: f64) -> f64 {
+        let curves = &self.locator.polynomials;
+        match term {
+            Guard::Stop(i, k) => polynomial_value(curves.stop_term(i, k), s),
+            Guard::Mark(i, k) => polynomial_value(curves.mark_term(i, k), s),
+            _ => f64::NAN,
+        }
     }
 
     /// The terms of the stops and marks that take part.

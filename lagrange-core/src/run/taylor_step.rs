@@ -3,9 +3,8 @@
 use super::Run;
 use super::guard_polynomials::Located;
 use super::hit::Hit;
-use super::sampled_step::SHARE;
 use super::singular::{LEAST_DEGREE, MOST_RETREATS, RETREAT, UNDECIDED};
-use super::stepping::{JUST_BEFORE, Stepper};
+use super::stepping::{CAREFUL, JUST_BEFORE, Stepper};
 use crate::arithmetic::quad::{Quad, QuadBody, side_by_side};
 use crate::arithmetic::{Scalar, epsilon};
 use crate::declaration::Operations;
@@ -106,7 +105,7 @@ impl<T: Scalar> Run<T> {
                 }
             }
             // Exact in any step, a careful run differs from another by rounding only: by that of one more step.
-            let part = SHARE * end * h;
+            let part = CAREFUL * end * h;
             if core::mem::take(&mut careful) && part > self.resolution(h) {
                 h = part;
                 continue;

@@ -26,8 +26,11 @@ const FINEST: f64 = 4.0;
 /// The same for the other methods, whose estimates of their errors are differences of nearly equal sums.
 const FINEST_SUM: f64 = 512.0;
 
-/// Tolerance of what the run at the tightest one is compared with, over that: nearer ones would differ by less than the error of either.
+/// Tolerance of what the run at the tightest one is compared with, over that.
 const LOOSER: f64 = 10.0;
+
+/// Runs whose tolerances differ by less than this factor differ by less than the error of either.
+const APART: f64 = 4.0;
 
 /// Looser than this a run within an error does not begin: it may miss what happens.
 const LOOSEST: f64 = 1e-8;
@@ -58,7 +61,7 @@ impl Settings {
                 let finest = self.finest::<T>().min(self.tolerance);
                 let tolerance = self.tolerance * factor;
                 // What is left to the finest is decent or nothing.
-                finer.tolerance = match tolerance < LOOSER * finest {
+                finer.tolerance = match tolerance < APART * finest {
                     true => finest,
                     false => tolerance,
                 };
@@ -111,7 +114,7 @@ impl Settings {
 
     /// Whether a run with these settings is so much more exact than one with the others that what they differ by is the error of that.
     fn is_tighter_than(&self, other: &Settings) -> bool {
-        self.method != other.method || LOOSER * self.tolerance <= other.tolerance
+        self.method != other.method || APART * self.tolerance <= other.tolerance
     }
 }
 
