@@ -4,14 +4,13 @@
 //! it say nothing of that. Between two instants T and V change by the integral of their rates along the step's polynomials, here by Gauss–Legendre
 //! quadrature. Where that is off the time between them is cut in two: an error of the quadrature vanishes then, and a jump is left in one of the parts.
 
-use super::equations::change;
+use super::equations::{Equations, change};
 use super::quadrature::gauss;
 use super::sizes::rounding_of;
 use super::watch::Step;
 use super::{Findings, Subject};
-use crate::declaration::{Declaration, Evaluator, Gradient, Inputs, Operations, Seed};
-use crate::effects::{Effects, Item};
-use crate::integrate::horner;
+use crate::declaration::{Evaluator, Gradient, Inputs, Operations, Seed};
+use crate::integrate::polynomial_derivative;
 use crate::system::Description;
 use core::cmp::Ordering;
 
@@ -64,28 +63,20 @@ struct Sizes {
 }
 
 impl Energies {
-    /// Those of a declaration with these effects, if any of them may jump.
-    pub fn new(
-        d: &'static Description,
-        declaration: &'static Declaration,
-        effects: &Effects,
-        parameters: &[f64],
-        least: Vec<f64>,
-    ) -> Option<Self> {
-        let taking = |values: &[usize], item: fn(usize) -> Item| -> Vec<usize> {
-            let values = values.iter().enumerate();
-            let values = values.filter(|(i, _)| effects.includes(d, item(*i)));
-            values.map(|(_, &value)| value).collect()
-        };
-        let terms = [
-            taking(declaration.kinetic, Item::Kinetic),
-            taking(declaration.potential, Item::Potential),
-        ];
+    /// Those of these equations, if any of them may jump.
+    pub fn new(equations: &Equations) -> Option<Self> {
+        let (d, declaration) = (equations.d, equations.declaration);
+        // T has the sign 1 in L, and V −1.
+        let terms = [1.0, -1.0].map(|which| -> Vec<usize> {
+            let terms = equations.energies();
+            let terms = terms.filter(|&(_, sign)| sign == which);
+            terms.map(|(value, _)| value).collect()
+        });
         let all = terms.concat();
         if !Operations::of(declaration, all.iter().copied()).may_jump() {
             return None;
         }
-        let evaluator = Evaluator::new(declaration, parameters, all);
+        let evaluator = Evaluator::new(declaration, &equations.parameters, all);
         let n = d.coordinates.len();
         Some(Self {
             d,
@@ -93,11 +84,11 @@ impl Energies {
             evaluator,
             terms,
             nodes: gauss(POINTS),
-            least,
+            least: equations.sizes.clone(),
             q: vec![0.0; n],
             v: vec![0.0; n],
             acceleration: vec![0.0; n],
-            zeros: vec![0.0; n.max(d.rows.len()).max(d.forces.len())],
+            zeros: equations.zeros.clone(),
             gradients: vec![Gradient::default(); n],
             parts: 0,
         })
@@ -180,16 +171,9 @@ impl Energies {
 
     /// Takes the state at part `s` of a step.
     fn take(&mut self, step: &Step, s: f64) {
-        for (x, c) in self.q.iter_mut().zip(step.polynomials(0)) {
-            *x = horner(c, s);
-        }
-        let velocities = self.v.iter_mut().zip(&mut self.acceleration);
-        for ((v, acceleration), c) in velocities.zip(step.polynomials(1)) {
-            let terms = c.iter().rev();
-            let (value, rate) = terms.fold((0.0, 0.0), |(value, rate), c| {
-                (value * s + c, rate * s + value)
-            });
-            (*v, *acceleration) = (value, rate / step.length);
+        step.state(s, &mut self.q, &mut self.v);
+        for (acceleration, c) in self.acceleration.iter_mut().zip(step.polynomials(1)) {
+            *acceleration = polynomial_derivative(c, s) / step.length;
         }
         self.evaluator.evaluate(Inputs {
             time: step.time + step.length * s,

@@ -214,25 +214,20 @@ impl<'a, T: Scalar> Examination<'a, T> {
         dynamics.set_report_needs(&needs);
         let start = numbers(&record.start);
         let finest = FINEST * rounding / f64::EPSILON;
+        let equations = Equations::new(
+            d,
+            declaration,
+            &record.effects,
+            &parameters,
+            record.asked.sizes.clone(),
+            ROUNDINGS * rounding,
+        );
         Self {
             record,
-            equations: Equations::new(
-                d,
-                declaration,
-                &record.effects,
-                &parameters,
-                record.asked.sizes.clone(),
-                ROUNDINGS * rounding,
-            ),
+            energies: jumps::Energies::new(&equations),
+            equations,
             findings: Findings::new(record.asked.tolerance.max(finest), rounding),
             watches: Watches::new(record, declaration, &parameters),
-            energies: jumps::Energies::new(
-                d,
-                declaration,
-                &record.effects,
-                &parameters,
-                record.asked.sizes.clone(),
-            ),
             events: 0,
             expected: start.clone(),
             reached: start.clone(),

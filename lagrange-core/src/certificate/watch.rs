@@ -83,6 +83,15 @@ impl Step {
         let n = all.len() / 2;
         all.skip(which * n).take(n)
     }
+
+    /// Takes positions and velocities at part `s` of it.
+    pub fn state(&self, s: f64, q: &mut [f64], v: &mut [f64]) {
+        for (which, list) in [q, v].into_iter().enumerate() {
+            for (x, c) in list.iter_mut().zip(self.polynomials(which)) {
+                *x = horner(c, s);
+            }
+        }
+    }
 }
 
 /// Everything that a polynomial can be between two parts of a step.
@@ -273,12 +282,7 @@ impl Watches {
     /// Looks at an instant of a step.
     fn look(&mut self, step: &Step, s: f64, mode: &Mode, findings: &mut Findings) {
         let [mut q, mut v] = core::mem::take(&mut self.state);
-        for (x, c) in q.iter_mut().zip(step.polynomials(0)) {
-            *x = horner(c, s);
-        }
-        for (x, c) in v.iter_mut().zip(step.polynomials(1)) {
-            *x = horner(c, s);
-        }
+        step.state(s, &mut q, &mut v);
         let at = Situation {
             time: step.time + step.length * s,
             q: &q,

@@ -103,12 +103,17 @@ impl<T: Scalar> Run<T> {
         self.is_edge(c, region[0]) && region[1].abs() <= rounding::<T>(ROUNDING) * speed
     }
 
+    /// How far the series of the state at hand reach, s; 1 if they end.
+    pub(super) fn reach(&self) -> f64 {
+        let (series, tolerance) = (self.dynamics.state_series(), self.settings.per_step());
+        let reach = taylor::step_size(series, self.stepper.order, tolerance);
+        reach.filter(|reach| reach.is_finite()).unwrap_or(1.0)
+    }
+
     /// The first term of the series of a region that is more than what rounding leaves, of positions and of accelerations of this size, beyond those that
     /// vanish at an edge that is not crossed.
     fn first_clear(&self, region: &[f64; LENGTH], accelerations: f64) -> Option<usize> {
-        let (series, tolerance) = (self.dynamics.state_series(), self.settings.per_step());
-        let reach = taylor::step_size(series, self.stepper.order, tolerance);
-        let ahead = SOON * reach.filter(|reach| reach.is_finite()).unwrap_or(1.0);
+        let ahead = SOON * self.reach();
         let sizes = || terms(region.iter().copied(), ahead).skip(KNOWN);
         let noise = CLEAR * sizes().fold(0.0, f64::max)
             + rounding::<T>(ROUNDING) * (1.0 + accelerations * ahead * ahead);

@@ -6,7 +6,6 @@
 use super::Run;
 use crate::arithmetic::{Scalar, rounding};
 use crate::error::Error;
-use crate::integrate::taylor;
 use crate::mode::FrictionMode;
 use crate::modes::composite::ONES;
 use crate::modes::decide::terms;
@@ -190,10 +189,11 @@ impl<T: Scalar> Run<T> {
             .extend(guards.copied().filter(|guard| guard.is_of_outputs(d)));
         // One may read what has the side of another, and so on; the last time nothing changes.
         let count = self.switcher.watched.len();
+        if count == 0 {
+            return Ok(());
+        }
         for pass in 0..=count {
-            if count > 0 {
-                self.expand()?;
-            }
+            self.expand()?;
             self.locator
                 .zeros
                 .retain(|(guard, _)| !guard.is_of_outputs(d));
@@ -228,9 +228,7 @@ impl<T: Scalar> Run<T> {
         let row = &mut row[..=order];
         let reading = Reading::Series(&self.dynamics);
         guard::series(guard, &self.now.mode, &reading, &ONES, row);
-        let tolerance = self.settings.per_step();
-        let reach = taylor::step_size(self.dynamics.state_series(), order, tolerance);
-        let reach = reach.filter(|reach| reach.is_finite()).unwrap_or(1.0);
+        let reach = self.reach();
         let largest = terms(row.iter().copied(), reach).fold(0.0, f64::max);
         let is_root = self.locator.fallen.contains(&guard) && row[0].abs() <= LOCATED * largest;
         let mut sizes = terms(row.iter().copied(), reach).enumerate();
