@@ -184,6 +184,12 @@ pub fn first_mut<const L: usize, X>(all: &mut [X]) -> &mut [X; L] {
     }
 }
 
+/// Keeps a coefficient of a series: rustc checks the types of a call faster than those of an assignment to an element.
+#[inline(always)]
+pub fn keep<N: Copy>(row: &mut Row<N>, at: usize, coefficient: N) {
+    row[at] = coefficient;
+}
+
 #[cold]
 fn shorter_than_described() -> ! {
     panic!("an argument is shorter than the description of the system says")

@@ -150,12 +150,24 @@ impl<N: Number> Factors<N> {
         }
     }
 
-    /// Keeps a coefficient of the factors.
+    /// Keeps a coefficient of the factors of the groups from `first` on.
     #[inline(always)]
-    pub fn keep(&mut self, registers: Registers, x: [N; GROUP], y: [N; GROUP]) -> Self {
-        let (x, y) = (N::four(registers, x), N::four(registers, y));
-        *self = Self { x, y };
-        *self
+    pub fn keep<const P: usize, const G: usize>(
+        registers: Registers,
+        all: &mut [Self; P],
+        first: usize,
+        x: [[N; GROUP]; G],
+        y: [[N; GROUP]; G],
+    ) -> [Self; G] {
+        let mut newest = [Self::none(); G];
+        let mut group = 0;
+        while group < G {
+            let (x, y) = (N::four(registers, x[group]), N::four(registers, y[group]));
+            newest[group] = Self { x, y };
+            all[first + group] = newest[group];
+            group += 1;
+        }
+        newest
     }
 
     /// Σ xⱼ yₖ₋ⱼ for 0 < j < k of the groups from `first` on, whose newest coefficients are those of k − 1.

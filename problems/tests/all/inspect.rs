@@ -87,7 +87,7 @@ fn the_emitted_rust_parses() {
     // What the declaration names keeps its name.
     for part in [
         "p_mass_ = self.mass;",
-        "turns_[0].sin_cos(q_theta_)",
+        "turn19_.sin_cos(q_theta_)",
         "a_theta",
         "v_phi",
     ] {

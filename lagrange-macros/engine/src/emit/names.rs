@@ -159,20 +159,22 @@ pub fn condition(needs: &OutputMask) -> TokenStream {
         .zip(needs.words())
         .filter(|(_, word)| **word != 0);
     let tests = words.map(|(word, bits)| {
-        let (held, word, bits) = (local("needs"), index(word), Literal::u64_unsuffixed(*bits));
-        quote!(#held[#word] & #bits != 0)
+        let (held, bits) = (need_word(word), Literal::u64_unsuffixed(*bits));
+        quote!(#held & #bits != 0)
     });
     quote!(#(#tests)||*)
 }
 
 /// Binds the words of the need mask.
 pub fn needs(program_needs: usize) -> TokenStream {
-    let (needs, held, words) = (
-        local("needs"),
-        local("held"),
-        index(program_needs.div_ceil(64).max(1)),
-    );
-    quote!(let #needs = first::<#words, _>(#held.needs);)
+    let held = local("held");
+    let words = (0..program_needs.div_ceil(64).max(1)).map(need_word);
+    quote!(let &[#(#words),*] = first(#held.needs);)
+}
+
+/// A word of the need mask.
+fn need_word(at: usize) -> Ident {
+    local(&format!("needs{at}"))
 }
 
 /// Values that are read by a step or written to an output.

@@ -35,16 +35,21 @@ pub fn parameter_names(system: &System) -> impl Iterator<Item = String> + '_ {
     parameters.map(|parameter| format!("p_{}", parameter.name))
 }
 
+/// The local that borrows output i of a slice.
+pub fn output(out: &str, at: usize) -> Ident {
+    local(&format!("{out}{at}"))
+}
+
 /// A masked program that writes its outputs into the slice `out`; what is `then` done with each value that enters one.
 pub fn masked(
     program: &Program,
     tape: &Tape,
-    (out, then): (&Ident, impl Fn(&Ident) -> TokenStream),
+    (out, then): (&str, impl Fn(&Ident) -> TokenStream),
     locals: &Locals,
     input: impl Fn(usize) -> TokenStream,
 ) -> TokenStream {
     let system = &program.equations.system;
-    let outputs = names::index(tape.outputs);
+    let outputs = (0..tape.outputs).map(|at| output(out, at));
     let needs = names::needs(program.equations.needs.len());
     let crossing = names::crossing(tape);
     let declared = crossing.iter().map(|value| locals.value(*value));
@@ -62,12 +67,12 @@ pub fn masked(
             &crossing,
         );
         let writes = block.writes.iter().map(|write| {
-            let (output, value) = (names::index(write.output), locals.value(write.value));
+            let (output, value) = (output(out, write.output), locals.value(write.value));
             let then = then(&value);
             match write.mode {
-                Mode::Set => quote!(#out[#output] = #value; #then),
-                Mode::Add => quote!(#out[#output] += #value; #then),
-                Mode::Sub => quote!(#out[#output] -= #value; #then),
+                Mode::Set => quote!(*#output = #value; #then),
+                Mode::Add => quote!(*#output += #value; #then),
+                Mode::Sub => quote!(*#output -= #value; #then),
             }
         });
         let body = quote!(#steps #(#writes)*);
@@ -77,8 +82,9 @@ pub fn masked(
         let condition = names::condition(&block.needs);
         quote!(if #condition { #body })
     });
+    let all = local(out);
     quote! {
-        let #out = first_mut::<#outputs, _>(#out);
+        let [#(#outputs),*] = first_mut(#all);
         #needs
         #(#inputs)*
         #(let mut #declared = <Self::Scalar as ::core::default::Default>::default();)*

@@ -89,8 +89,8 @@ pub fn equations(program: &Program) -> TokenStream {
         fn mode_series<#number: #core::__private::Number>(
         ) -> &'static [#core::__private::equations::SeriesFn<#number>] {
             use #core::__private::equations::{
-                Arguments, Factors, INVERSES, Memory, ModeSeries, Refused, Registers, Row, STRIDE, SeriesFn,
-                across, first, first_mut,
+                Arguments, Factors, INVERSES, Memory, ModeSeries, Refused, Registers, STRIDE, SeriesFn,
+                across, first, first_mut, keep,
             };
             use #core::__private::{Number, program::Selection};
             #(#series)*
@@ -167,7 +167,7 @@ fn motion(program: &Program) -> TokenStream {
     };
     let locals = Locals::new(writer::state_names(system)).naming_pairs(&program.motion);
     let sum = local("sum");
-    let out = (&nodes, |value: &_| quote!(#sum += #value;));
+    let out = ("nodes", |value: &_| quote!(#sum += #value;));
     let body = scalar::masked(program, &program.motion, out, &locals, input);
     let (coordinates, constants) = (index(n), index(program.constants.outputs));
     quote! {
@@ -204,19 +204,13 @@ fn mode_constants(program: &Program, mode: &ModeProgram) -> TokenStream {
             quote!(#signs[#at])
         }
     };
-    let frictions = system.frictions.iter();
-    let signs_of = frictions.flat_map(|friction| {
-        let of = |what: &str| format!("s_{}_{what}", friction.name.text);
-        [of("direction"), of("pressing")]
-    });
-    let locals = Locals::new(scalar::parameter_names(system).chain(signs_of));
-    let c = local("c");
-    let out = (&c, |_: &_| TokenStream::new());
+    let locals = writer::constant_inputs(system);
+    let out = ("c", |_: &_| TokenStream::new());
     let body = scalar::masked(program, &mode.constants, out, &locals, input);
     let place = |place: &ValueRef| match place {
         ValueRef::Constant(at) => {
-            let at = index(*at);
-            quote!(Scalar::value(#c[#at]).abs())
+            let c = scalar::output("c", *at);
+            quote!(Scalar::value(*#c).abs())
         }
         ValueRef::Zero | ValueRef::Node(_) => quote!(0.0),
     };
@@ -228,8 +222,8 @@ fn mode_constants(program: &Program, mode: &ModeProgram) -> TokenStream {
     let positive = mode.results.system.positive.iter().map(|place| {
         let inertia = match place {
             ValueRef::Constant(at) => {
-                let at = index(*at);
-                quote!(Scalar::value(#c[#at]))
+                let c = scalar::output("c", *at);
+                quote!(Scalar::value(*#c))
             }
             ValueRef::Zero | ValueRef::Node(_) => quote!(0.0),
         };

@@ -68,7 +68,7 @@ struct Work<'a> {
     /// Least share that a pivot before has kept of its diagonal element: later ones miss it too.
     least: Option<Ident>,
     /// Diagonal elements that pivots are compared with: of rows that stay, once the accelerations are eliminated.
-    before: Vec<TokenStream>,
+    before: Vec<Element>,
     /// What coordinates add to the compliance of each row: those of constant inertia, and those that may lose nearly all of it.
     compliance: Vec<[Vec<TokenStream>; 2]>,
 }
@@ -93,7 +93,7 @@ impl<'a> Work<'a> {
             before: Vec::new(),
             compliance: vec![Default::default(); size],
         };
-        work.before = (0..size).map(|i| work.read(&work.m[i][i])).collect();
+        work.before = (0..size).map(|i| work.m[i][i].clone()).collect();
         work
     }
 
@@ -119,7 +119,7 @@ impl<'a> Work<'a> {
     fn begin_rows(&mut self, step: usize) {
         let number = &self.writer.number;
         for &i in &self.order[step..] {
-            self.before[i] = self.read(&self.m[i][i]);
+            self.before[i] = self.m[i][i].clone();
         }
         let safe = local("safe");
         for [constant, varying] in &self.compliance {
@@ -135,18 +135,18 @@ impl<'a> Work<'a> {
     fn test(&mut self, step: usize) {
         let number = &self.writer.number;
         let p = self.order[step];
+        // The constants have been tested.
+        if self.is_inertia(p) && self.is_constant(p) {
+            return;
+        }
         let (pivot, safe) = (self.read(&self.m[p][p]), local("safe"));
-        let before = &self.before[p];
+        let before = self.read(&self.before[p]);
         if !self.is_inertia(p) {
             let below = self.order[step + 1..].iter().map(|&i| &self.m[i][p]);
             let below = below.filter(|e| !matches!(e, Element::Zero));
             let below = below.map(|element| self.read(element));
             let test = quote!(#safe &= #number::is_safe_pivot(#pivot, #before, &[#(#below),*]););
             self.code.extend(test);
-            return;
-        }
-        // The constants have been tested.
-        if self.is_constant(p) {
             return;
         }
         let tested = match &self.least {

@@ -1,13 +1,13 @@
 //! `value`: accelerations, and forces and what guards read if they are asked for, at one state.
 
-use super::super::names::{self, index, local};
+use super::super::names::{self, local};
 use super::solve::Elimination;
-use super::writer::Writer;
+use super::writer::{Writer, if_named};
 use crate::emit::operation::Notation;
 use crate::plan::mode::products::{Plan, force_row, zero_row};
 use crate::plan::mode::{ModeProgram, Phase};
 use crate::plan::{Block, OutputMask, Program, Value, ValueRef};
-use crate::sorted::SortedMap;
+use crate::sorted::{SortedMap, SortedSet};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
@@ -25,13 +25,17 @@ pub fn function(
     let (c, held, turns) = (local("c"), local("held"), local("turns"));
     let (t, q, v) = (local("t"), local("q"), local("v"));
     let number = &writer.number;
-    let prologue = writer.prologue();
     let needs = names::needs(program.equations.needs.len());
     let declarations = writer.declarations();
     let solved = solved(&writer, &elimination, mode);
     let reported = reported(&writer, mode, plan);
     let projection = projection(&writer, &elimination, program, plan);
-    let (count, numbers) = (index(mode.inputs.coordinates), index(numbers(mode, plan)));
+    let read = names::read(&mode.tape);
+    let prologue = writer.prologue(|input| read.contains(&input));
+    let rates_of = (0..mode.inputs.coordinates).map(|j| rate(&writer, j));
+    let names = numbers_of(&writer, plan).into_iter().enumerate();
+    let used = used(mode, plan);
+    let numbers = names.map(|(row, name)| if_named(name, used.contains(&row)));
     let safe = local("safe");
     quote! {
         #[doc = #heading]
@@ -44,12 +48,12 @@ pub fn function(
             #turns: &mut [Turn<#number>],
         ) -> bool {
             #prologue
-            let #rates = first_mut::<#count, _>(#rates);
+            let [#(#rates_of),*] = first_mut(#rates);
             #needs
             #declarations
             #solved
             if let ::core::option::Option::Some(#values) = #values {
-                let #values = first_mut::<#numbers, _>(#values);
+                let [#(#numbers),*] = first_mut(#values);
                 #reported
                 #projection
             }
@@ -75,11 +79,10 @@ fn solved(writer: &Writer, elimination: &Elimination, mode: &ModeProgram) -> Tok
         in_block(block, quote!(#(#steps)*))
     });
     let accelerations = blocks(writer, Phase::Accelerations, nothing);
-    let rates = local("rates");
     let places = mode.results.accelerations.iter().enumerate();
-    let rates_of = places.map(|(j, place)| {
-        let (j, value) = (index(j), writer.place(*place));
-        quote!(#rates[#j] = #value;)
+    let rates = places.map(|(j, place)| {
+        let (rate, value) = (rate(writer, j), writer.place(*place));
+        quote!(*#rate = #value;)
     });
     quote! {
         #assembly
@@ -88,16 +91,22 @@ fn solved(writer: &Writer, elimination: &Elimination, mode: &ModeProgram) -> Tok
         #(#unknowns)*
         #(#shared)*
         #accelerations
-        #(#rates_of)*
+        #(#rates)*
     }
+}
+
+/// The local that borrows the rate of velocity j.
+fn rate(writer: &Writer, j: usize) -> Ident {
+    let velocity = writer.mode.inputs.velocity(j);
+    local(&format!("rate_{}", writer.locals.stem(velocity)))
 }
 
 /// Writes the forces and what guards read.
 fn reported(writer: &Writer, mode: &ModeProgram, plan: &Plan) -> TokenStream {
-    let values = local("values");
+    let names = numbers_of(writer, plan);
     let store = |row: usize, place: ValueRef| {
-        let (row, value) = (index(row), writer.place(place));
-        quote!(#values[#row] = #value;)
+        let (name, value) = (&names[row], writer.place(place));
+        quote!(*#name = #value;)
     };
     let forces = blocks(writer, Phase::Forces, |_| TokenStream::new());
     let places = mode.results.forces.iter().enumerate();
@@ -140,6 +149,34 @@ pub fn numbers(mode: &ModeProgram, plan: &Plan) -> usize {
     plan.rows + changes
 }
 
+/// What borrows them, by the names of what they are.
+fn numbers_of(writer: &Writer, plan: &Plan) -> Vec<Ident> {
+    let inputs = writer.mode.inputs;
+    let changes = (0..inputs.coordinates)
+        .map(|j| format!("change_{}", writer.locals.stem(inputs.velocity(j))));
+    let mut names: Vec<String> = (0..plan.rows).map(|at| format!("value{at}")).collect();
+    for (&row, &at) in plan.kept() {
+        names[at] = format!("value_{}", writer.stem(row));
+    }
+    names.extend(changes);
+    names.truncate(numbers(writer.mode, plan));
+    names.iter().map(|name| local(name)).collect()
+}
+
+/// Which of them are written, or read by the projection.
+fn used(mode: &ModeProgram, plan: &Plan) -> SortedSet<usize> {
+    let forces = mode.results.forces.iter().enumerate();
+    let forces = forces.filter(|(_, place)| place.is_some());
+    let forces = forces.map(|(r, _)| force_row(mode, r));
+    let changes = plan.rows..numbers(mode, plan);
+    let kept = kept(mode, plan).into_iter().map(|(_, row)| row);
+    let extras = mode.results.extras.iter();
+    let rates = extras
+        .filter(|_| mode.projects_velocities())
+        .filter_map(|extra| plan.extra_row(mode, extra));
+    forces.chain(kept).chain(changes).chain(rates).collect()
+}
+
 /// The least change of the velocities, in the mass metric, that takes them onto the rows that act: by the same factors, from the rates
 /// that have been written.
 fn projection(
@@ -152,7 +189,7 @@ fn projection(
     if !mode.projects_velocities() {
         return TokenStream::new();
     }
-    let values = local("values");
+    let names = numbers_of(writer, plan);
     let structure = &program.equations.structure;
     let mut right = vec![None; mode.inputs.coordinates];
     let mut needs = OutputMask::default();
@@ -165,8 +202,8 @@ fn projection(
             .find(|extra| extra.output == rate);
         let at = extra.and_then(|extra| plan.extra_row(mode, extra));
         right.push(at.map(|at| {
-            let at = index(at);
-            quote!((-#values[#at]))
+            let rate = &names[at];
+            quote!((-*#rate))
         }));
         let [.., need] = structure.rows[row].needs;
         needs.join(&OutputMask::single(need));
@@ -174,8 +211,8 @@ fn projection(
     let (solve, changes) = elimination.solve(writer, right, "d_");
     let store = changes.iter().enumerate().take(mode.inputs.coordinates);
     let store = store.map(|(j, change)| {
-        let at = index(plan.rows + j);
-        quote!(#values[#at] = #change;)
+        let name = &names[plan.rows + j];
+        quote!(*#name = #change;)
     });
     let condition = names::condition(&needs);
     quote!(if #condition { #solve #(#store)* })

@@ -1,13 +1,16 @@
 //! Order 0: every operation as a line of Rust on numbers.
 
-use super::super::names::{self, Locals, index, local, plain};
+use super::super::names::{self, Locals, local, plain};
 use super::super::operation::{Notation, expression, select};
+use super::super::scalar;
 use crate::model::System;
 use crate::plan::mode::ModeProgram;
+use crate::plan::mode::products::Row;
 use crate::plan::{Block, Coefficient, Mode, Operation, Step, Value, ValueRef};
 use crate::sorted::{SortedMap, SortedSet};
 use proc_macro2::{Ident, TokenStream};
-use quote::quote;
+use quote::{ToTokens, quote};
+use std::cell::RefCell;
 use std::collections::BTreeSet;
 
 /// Writes values.
@@ -20,6 +23,10 @@ pub struct Writer<'a> {
     pub declared: BTreeSet<Value>,
     /// Outputs that several writes enter.
     pub sums: SortedSet<usize>,
+    /// What the constants of the mode are called.
+    constants: Vec<Ident>,
+    /// Those that what has been written so far reads.
+    read: RefCell<BTreeSet<usize>>,
 }
 
 /// The type parameter of emitted functions: not that of the struct.
@@ -96,8 +103,9 @@ impl Notation for Writer<'_> {
                 quote!(#number::of(#value))
             }
             Coefficient::Constant(at) => {
-                let (c, at) = (local("c"), index(at));
-                quote!(#c[#at])
+                self.read.borrow_mut().insert(at);
+                let name = &self.constants[at];
+                quote!(*#name)
             }
             Coefficient::Parameter(_) => unreachable!("a mode reads its own constants only"),
         }
@@ -122,37 +130,39 @@ impl<'a> Writer<'a> {
             number: number(system),
             declared,
             sums: sums(mode),
+            constants: constants(system, mode),
+            read: RefCell::default(),
         }
     }
 
-    /// Binds arguments to names: inputs that are read, constants, needs.
-    pub fn prologue(&self) -> TokenStream {
-        let read = names::read(&self.mode.tape);
+    /// Takes the arguments apart: inputs that are `read`, angles, and the constants that what has been written before reads. rustc checks the
+    /// types of names faster than those of elements. Constants are borrowed, and so read where they enter: all at once, they would not fit
+    /// into the registers of a processor.
+    pub fn prologue(&self, read: impl Fn(Value) -> bool) -> TokenStream {
         let (t, c) = (local("t"), local("c"));
         let n = self.mode.inputs.coordinates;
         let time = self.value(Value(0));
         let names = |first: usize| {
             let inputs = (first..first + n).map(|input| {
                 let name = self.value(Value(input));
-                if read.contains(&Value(input)) {
-                    quote!(#name)
-                } else {
-                    quote!(_)
-                }
+                if_named(name, read(Value(input)))
             });
             quote!(&[#(#inputs),*])
         };
         let (q, v) = (local("q"), local("v"));
         let (positions, velocities) = (names(1), names(1 + n));
-        let count = index(self.mode.constants.outputs);
-        let (turns, angles) = (local("turns"), index(turns_of(self.mode).count()));
-        let time = read.contains(&Value(0)).then(|| quote!(let #time = #t;));
+        let constants = self.constants.iter().enumerate();
+        let constants =
+            constants.map(|(at, name)| if_named(name, self.read.borrow().contains(&at)));
+        let turns = local("turns");
+        let angles = turns_of(self.mode).map(turn);
+        let time = read(Value(0)).then(|| quote!(let #time = #t;));
         quote! {
             #time
             let #positions = first(#q);
             let #velocities = first(#v);
-            let #c = first::<#count, _>(#c);
-            let #turns = first_mut::<#angles, _>(#turns);
+            let [#(#constants),*] = first(#c);
+            let [#(#angles),*] = first_mut(#turns);
         }
     }
 
@@ -173,6 +183,15 @@ impl<'a> Writer<'a> {
                 let name = self.output(output);
                 quote!(#name)
             }
+        }
+    }
+
+    /// What all names of what is given in a row begin with.
+    pub fn stem(&self, row: Row) -> String {
+        match row {
+            Row::Value(value) => self.locals.stem(value),
+            Row::Sum(output) => format!("sum{output}"),
+            Row::Fixed(constant) => format!("c{constant}"),
         }
     }
 
@@ -220,13 +239,8 @@ impl<'a> Writer<'a> {
 
     /// Sine and cosine, which are the first of these two values, from what is kept of the last angle.
     fn sin_cos(&self, value: Value, angle: Value) -> TokenStream {
-        let (turns, angle) = (local("turns"), self.value(angle));
-        let at = index(
-            turns_of(self.mode)
-                .take_while(|turn| *turn != value)
-                .count(),
-        );
-        quote!(#turns[#at].sin_cos(#angle))
+        let (turn, angle) = (turn(value), self.value(angle));
+        quote!(#turn.sin_cos(#angle))
     }
 
     /// The writes of a block that enter sums.
@@ -244,6 +258,47 @@ impl<'a> Writer<'a> {
             }
         });
         quote!(#(#lines)*)
+    }
+}
+
+/// The inputs of the constants of modes by the names of their parameters and frictions.
+pub fn constant_inputs(system: &System) -> Locals {
+    let frictions = system.frictions.iter();
+    let signs = frictions.flat_map(|friction| {
+        let of = |what: &str| format!("s_{}_{what}", friction.name.text);
+        [of("direction"), of("pressing")]
+    });
+    Locals::new(scalar::parameter_names(system).chain(signs))
+}
+
+/// What the constants of a mode are called: one that is a parameter like that, others by their numbers.
+fn constants(system: &System, mode: &ModeProgram) -> Vec<Ident> {
+    let (tape, locals) = (&mode.constants, constant_inputs(system));
+    let writes = tape.blocks.iter().flat_map(|block| &block.writes);
+    let inputs = writes.filter(|write| write.value.0 < tape.inputs);
+    let mut of_input: SortedMap<Value, usize> = SortedMap::new();
+    for write in inputs {
+        of_input.insert(write.value, write.output);
+    }
+    let mut names: Vec<Ident> = (0..tape.outputs)
+        .map(|at| local(&format!("c{at}")))
+        .collect();
+    for (&value, &at) in &of_input {
+        names[at] = locals.value(value);
+    }
+    names
+}
+
+/// What is kept of the angle whose sine this is.
+fn turn(sine: Value) -> Ident {
+    local(&format!("turn{}", sine.0))
+}
+
+/// A name in a pattern, if what it is bound to is read.
+pub fn if_named(name: impl ToTokens, is_read: bool) -> TokenStream {
+    match is_read {
+        true => name.to_token_stream(),
+        false => quote!(_),
     }
 }
 

@@ -4,7 +4,7 @@ use super::Expansion;
 use super::rules::needs_auxiliary;
 use crate::emit::equations::solve::Elimination;
 use crate::emit::equations::value;
-use crate::emit::names::{self, index, local};
+use crate::emit::names::{self, local};
 use crate::emit::operation::Notation;
 use crate::plan::mode::Phase;
 use crate::plan::mode::products::Row;
@@ -50,13 +50,10 @@ impl Expansion<'_> {
     fn first_of_inputs(&self) -> TokenStream {
         let inputs = self.mode.inputs;
         let number = &self.writer.number;
-        let (t, q, v) = (local("t"), local("q"), local("v"));
+        let t = local("t");
         let states = (0..inputs.coordinates).map(|j| {
-            let at = index(j);
-            let position = Row::Value(inputs.position(j));
-            let position = self.store(position, quote!(0), quote!(#q[#at]));
-            let velocity = Row::Value(inputs.velocity(j));
-            let velocity = self.store(velocity, quote!(0), quote!(#v[#at]));
+            let position = self.keep_first(inputs.position(j));
+            let velocity = self.keep_first(inputs.velocity(j));
             quote!(#position #velocity)
         });
         let time = Row::Value(Value(0));
@@ -102,7 +99,6 @@ impl Expansion<'_> {
 
     /// The first two coefficients of the velocities.
     fn first_of_velocities(&self) -> TokenStream {
-        let v = local("v");
         let places = self.mode.results.accelerations.iter().enumerate();
         let moving = places.filter(|(_, place)| **place != ValueRef::Zero);
         let lines = moving.map(|(j, place)| {
@@ -110,8 +106,9 @@ impl Expansion<'_> {
             let velocity = self.mode.inputs.velocity(j);
             let store = self.store(Row::Value(velocity), quote!(1), value.clone());
             let next = self.d_of_place(*place).map(|_| {
-                let (before, now, at) = (self.before(velocity), self.now(velocity), index(j));
-                quote!(let (mut #before, mut #now) = (#v[#at], #value);)
+                let (before, now) = (self.before(velocity), self.now(velocity));
+                let first = self.writer.value(velocity);
+                quote!(let mut #before = #first; let mut #now = #value;)
             });
             quote!(#store #next)
         });

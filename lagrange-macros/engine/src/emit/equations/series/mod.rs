@@ -23,7 +23,7 @@ use crate::plan::mode::ModeProgram;
 use crate::plan::mode::products::{Plan, Row};
 use crate::plan::{Program, Step, Value, ValueRef};
 use proc_macro2::{Ident, TokenStream};
-use quote::quote;
+use quote::{ToTokens, quote};
 use std::collections::BTreeSet;
 
 /// Writes the coefficients of one mode.
@@ -65,15 +65,20 @@ pub fn implementation(
     let looped = expansion.orders_from(1 + unrolled, &elimination);
     let (c, held, order, rows) = (local("c"), local("held"), local("order"), local("rows"));
     let (t, q, v, registers) = (local("t"), local("q"), local("v"), local("registers"));
-    let (products, newest, weight) = (local("products"), local("newest"), local("weight"));
+    let (products, weight) = (local("products"), local("weight"));
+    let newest = (0..plan.groups).map(sums::newest);
     let turns = local("turns");
     let groups = index(plan.groups);
+    let rows_of = expansion.row_names();
     let memory = (plan.groups > 0).then(
         || quote!(let #products = first_mut::<STRIDE, _>(#products.as_chunks_mut::<#groups>().0);),
     );
-    let prologue = expansion.writer.prologue();
+    // Rows are kept of all positions and velocities.
+    let read = names::read(&mode.tape);
+    let states = 1..1 + 2 * mode.inputs.coordinates;
+    let prologue =
+        (expansion.writer).prologue(|input| states.contains(&input.0) || read.contains(&input));
     let needs = names::needs(program.equations.needs.len());
-    let (row_names, count) = (expansion.row_names(), index(plan.rows));
     let result = quote!(::core::result::Result<(), Refused>);
     quote! {
         #[doc = #heading]
@@ -89,12 +94,11 @@ pub fn implementation(
                 (#rows, #products, #turns): Memory<'_, #number>,
             ) -> #result {
                 #prologue
-                #row_names
-                let #rows = first_mut::<#count, _>(#rows);
+                let [#(#rows_of),*] = first_mut(#rows);
                 #memory
                 #needs
                 #first
-                let mut #newest = [Factors::<#number>::none(); #groups];
+                #(let mut #newest = Factors::<#number>::none();)*
                 let mut #weight = #number::of(0.0);
                 #(#single)*
                 #looped
@@ -176,41 +180,27 @@ impl<'a> Expansion<'a> {
         }
     }
 
-    /// The number of the row of a series that is kept, as a constant.
-    fn row_name(&self, row: Row) -> Ident {
-        let stem = |value: Value| self.writer.locals.stem(value);
-        let name = match row {
-            Row::Value(value) => stem(value),
-            Row::Sum(output) => format!("sum{output}"),
-            Row::Fixed(constant) => format!("c{constant}"),
-        };
-        local(&name.to_uppercase())
-    }
-
     /// All coefficients of a series that is kept.
-    fn row(&self, row: Row) -> TokenStream {
-        let (rows, name) = (local("rows"), self.row_name(row));
-        quote!(#rows[#name])
+    fn row(&self, row: Row) -> Ident {
+        local(&format!("row_{}", self.writer.stem(row)))
     }
 
-    /// Names the rows, in their order.
-    fn row_names(&self) -> TokenStream {
-        let mut kept: Vec<(usize, Row)> = self.plan.kept().map(|(&row, &at)| (at, row)).collect();
-        kept.sort_unstable();
-        let lines = kept.into_iter().map(|(at, row)| {
-            let (name, at) = (self.row_name(row), index(at));
-            quote!(const #name: usize = #at;)
-        });
-        quote!(#(#lines)*)
+    /// Names the rows, in their order; those that no series is kept in have none.
+    fn row_names(&self) -> Vec<TokenStream> {
+        let mut names = vec![quote!(_); self.plan.rows];
+        for (&row, &at) in self.plan.kept() {
+            names[at] = self.row(row).to_token_stream();
+        }
+        names
     }
 
-    /// `rows[row][at] = value;`, if the row is kept.
+    /// `keep(row, at, value);`, if the row is kept.
     fn store(&self, row: Row, at: TokenStream, value: TokenStream) -> TokenStream {
         if self.plan.row(row).is_none() {
             return TokenStream::new();
         }
         let row = self.row(row);
-        quote!(#row[#at] = #value;)
+        quote!(keep(#row, #at, #value);)
     }
 
     /// The coefficient of a value, if it has any.

@@ -198,7 +198,7 @@ impl Expansion<'_> {
             let (before, now) = (self.before(velocity), self.now(velocity));
             let next = quote!(#d * #number::of(INVERSES[#p + 1]));
             let store = self.store(Row::Value(velocity), quote!(#p + 1), quote!(#now));
-            Some(quote!((#before, #now) = (#now, #next); #store))
+            Some(quote!(#before = #now; #now = #next; #store))
         });
         quote!(#(#lines)*)
     }

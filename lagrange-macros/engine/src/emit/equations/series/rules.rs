@@ -33,7 +33,7 @@ impl Expansion<'_> {
         // −(Σ zⱼ yₖ₋ⱼ)/y₀, j < k
         let divided = |dy: TokenStream| {
             let (z0, s) = (n(z), s(0));
-            quote!((-(#z0 * #i)).fused(#dy, -(#s * #i)))
+            quote!(#number::fused(-(#z0 * #i), #dy, -(#s * #i)))
         };
         // What depends on coefficient k of an operand enters last, in one operation: each order waits for it.
         if let Some(power) = self.plan.power(z) {
@@ -42,7 +42,7 @@ impl Expansion<'_> {
             let slope = quote!((#number::of(#e) * #z0 * #i));
             return bind(
                 z,
-                quote!(#slope.fused(#dx, (#number::of(#e) * #two - #one) * (#share * #i))),
+                quote!(#number::fused(#slope, #dx, (#number::of(#e) * #two - #one) * (#share * #i))),
             );
         }
         let result = match step.operation {
@@ -74,15 +74,15 @@ impl Expansion<'_> {
                 match (d(x), d(y)) {
                     (Some(_), Some(dy)) if !known && self.is_unknown(x) => {
                         let s = s(0);
-                        quote!(#x0.fused(#dy, #s))
+                        quote!(#number::fused(#x0, #dy, #s))
                     }
                     (Some(dx), Some(_)) if !known && self.is_unknown(y) => {
                         let s = s(0);
-                        quote!(#y0.fused(#dx, #s))
+                        quote!(#number::fused(#y0, #dx, #s))
                     }
                     (Some(dx), Some(dy)) => {
                         let s = s(0);
-                        quote!(#x0.fused(#dy, #dx.fused(#y0, #s)))
+                        quote!(#number::fused(#x0, #dy, #number::fused(#dx, #y0, #s)))
                     }
                     (Some(dx), None) => quote!(#dx * #y0),
                     (None, Some(dy)) => quote!(#x0 * #dy),
@@ -91,32 +91,32 @@ impl Expansion<'_> {
             }
             Operation::Square(x) => {
                 let (x0, dx, s) = (n(x), d(x), s(0));
-                quote!((#x0 + #x0).fused(#dx, #s))
+                quote!(#number::fused(#x0 + #x0, #dx, #s))
             }
             Operation::Div(x, y) => match (d(x), d(y).map(divided)) {
-                (Some(dx), Some(rest)) => quote!(#i.fused(#dx, #rest)),
+                (Some(dx), Some(rest)) => quote!(#number::fused(#i, #dx, #rest)),
                 (None, Some(rest)) => rest,
                 (dx, None) => quote!(#dx * #i),
             },
             Operation::Ratio(_, y) => d(y).map_or_else(zero, divided),
             Operation::Sqrt(x) => {
                 let (dx, s) = (d(x), s(0));
-                quote!(#i.fused(#dx, -(#s * #i)))
+                quote!(#number::fused(#i, #dx, -(#s * #i)))
             }
             Operation::Exp(x) => {
                 let (z0, dx, s) = (n(z), d(x), s(0));
-                quote!(#z0.fused(#dx, #s * #share))
+                quote!(#number::fused(#z0, #dx, #s * #share))
             }
             Operation::Ln(x) => {
                 let (dx, s) = (d(x), s(0));
-                quote!(#i.fused(#dx, -(#s * (#share * #i))))
+                quote!(#number::fused(#i, #dx, -(#s * (#share * #i))))
             }
             Operation::SinCos(x) | Operation::SinhCosh(x) => {
                 let second = Value(z.0 + 1);
                 let (z0, u0, dx) = (n(z), n(second), d(x));
                 let (one, two) = (s(0), s(1));
-                let first = bind(z, quote!(#u0.fused(#dx, #one * #share)));
-                let other = quote!(#z0.fused(#dx, #two * #share));
+                let first = bind(z, quote!(#number::fused(#u0, #dx, #one * #share)));
+                let other = quote!(#number::fused(#z0, #dx, #two * #share));
                 let other = match step.operation {
                     Operation::SinCos(_) => bind(second, quote!(-#other)),
                     _ => bind(second, other),
@@ -125,7 +125,7 @@ impl Expansion<'_> {
             }
             Operation::Tan(x) | Operation::Tanh(x) => {
                 let (z0, u0, dx, one, two) = (n(z), self.auxiliary(z), d(x), s(0), s(1));
-                let first = bind(z, quote!(#u0.fused(#dx, #one * #share)));
+                let first = bind(z, quote!(#number::fused(#u0, #dx, #one * #share)));
                 let dz = self.coefficient_of(z);
                 let half = twice(quote!(#z0 * #dz));
                 let change = match step.operation {

@@ -15,6 +15,22 @@ pub(super) fn system_product(i: usize, j: usize) -> Ident {
     local(&format!("earlier_k{i}_{j}"))
 }
 
+/// The newest coefficients of the factors of a group.
+pub(super) fn newest(group: usize) -> Ident {
+    local(&format!("newest{group}"))
+}
+
+/// The products that are summed in one loop, with the number of their first group, of those whose groups begin with `first`.
+fn loops(
+    first: usize,
+    products: &[(Ident, Product)],
+) -> impl Iterator<Item = (usize, &[(Ident, Product)])> {
+    let count = products.len().div_ceil(GROUP);
+    let together = count.div_ceil(count.div_ceil(TOGETHER).max(1)).max(1);
+    let loops = products.chunks(GROUP * together).enumerate();
+    loops.map(move |(at, products)| (first + at * together, products))
+}
+
 impl Expansion<'_> {
     /// The sums over earlier coefficients that count whatever is held, with their names.
     pub(super) fn always_summed(&self) -> Vec<(Ident, Product)> {
@@ -35,22 +51,14 @@ impl Expansion<'_> {
         products: &[(Ident, Product)],
         new: bool,
     ) -> TokenStream {
-        let (k, registers) = (local("k"), local("registers"));
-        let (memory, newest) = (local("products"), local("newest"));
-        let count = products.len().div_ceil(GROUP);
-        let together = count.div_ceil(count.div_ceil(TOGETHER).max(1)).max(1);
-        let loops = products.chunks(GROUP * together).enumerate();
-        let loops = loops.map(|(at, products)| {
+        let (k, registers, memory) = (local("k"), local("registers"), local("products"));
+        let loops = loops(first, products).map(|(from, products)| {
             let groups = products.chunks(GROUP).map(|group| {
                 let names = group.iter().map(|(name, _)| name);
                 let rest = (group.len()..GROUP).map(|_| quote!(_));
                 quote!([#(#names,)* #(#rest),*])
             });
-            let from = first + at * together;
-            let last = (from..from + products.len().div_ceil(GROUP)).map(|at| {
-                let at = index(at);
-                quote!(#newest[#at])
-            });
+            let last = (from..from + products.len().div_ceil(GROUP)).map(newest);
             let (bind, from) = (new.then(|| quote!(let)), index(from));
             quote! {
                 #bind [#(#groups),*] = Factors::sums(#registers, #k, #memory, #from, [#(#last),*]);
@@ -102,17 +110,22 @@ impl Expansion<'_> {
 
     /// Keeps coefficient k of the factors of products.
     pub(super) fn keep_factors(&self, first: usize, products: &[(Ident, Product)]) -> TokenStream {
-        let registers = local("registers");
-        let (memory, newest, p) = (local("products"), local("newest"), local("p"));
-        let groups = products.chunks(GROUP).enumerate().map(|(at, group)| {
-            let at = index(first + at);
-            // Nobody reads the sums of what a group lacks: it repeats its last product.
-            let filled = |place: usize| group[place.min(group.len() - 1)].1;
-            let x = (0..GROUP).map(|place| self.factor(filled(place).0));
-            let y = (0..GROUP).map(|place| self.factor(filled(place).1));
-            quote!(#newest[#at] = #memory[#p][#at].keep(#registers, [#(#x),*], [#(#y),*]);)
+        let (memory, p, registers) = (local("products"), local("p"), local("registers"));
+        let loops = loops(first, products).map(|(from, products)| {
+            let last = (from..from + products.len().div_ceil(GROUP)).map(newest);
+            let (x, y): (Vec<_>, Vec<_>) = products.chunks(GROUP).map(|group| {
+                // Nobody reads the sums of what a group lacks: it repeats its last product.
+                let filled = |place: usize| group[place.min(group.len() - 1)].1;
+                let x = (0..GROUP).map(|place| self.factor(filled(place).0));
+                let y = (0..GROUP).map(|place| self.factor(filled(place).1));
+                (quote!([#(#x),*]), quote!([#(#y),*]))
+            }).unzip();
+            let from = index(from);
+            quote! {
+                [#(#last),*] = Factors::keep(#registers, &mut #memory[#p], #from, [#(#x),*], [#(#y),*]);
+            }
         });
-        quote!(#(#groups)*)
+        quote!(#(#loops)*)
     }
 
     /// Coefficient k of a factor.
