@@ -59,6 +59,10 @@ impl<T: Scalar> Run<T> {
         if self.recorder.trajectory.work.steps >= self.settings.max_steps {
             return Err(self.limit("steps", self.settings.max_steps));
         }
+        // Marks of the last step among them.
+        if self.events() > self.settings.max_events {
+            return Err(self.limit("events", self.settings.max_events));
+        }
         self.check_reach()?;
         self.check_progress()?;
         if let Some(monitor) = &self.settings.monitor {
@@ -210,10 +214,15 @@ impl<T: Scalar> Run<T> {
         });
     }
 
+    /// Events so far, and switches that change nothing.
+    fn events(&self) -> usize {
+        let recorder = &self.recorder;
+        recorder.events_before + recorder.trajectory.events.len() + self.switcher.silent
+    }
+
     /// Counts a switch; too many at one time, or in all, those that change nothing among them, end the run.
     fn count_switch(&mut self) -> Result<(), Error> {
-        let events = self.recorder.events_before + self.recorder.trajectory.events.len();
-        if events + self.switcher.silent >= self.settings.max_events {
+        if self.events() >= self.settings.max_events {
             return Err(self.limit("events", self.settings.max_events));
         }
         self.switcher.stuck.push(&self.now.mode);

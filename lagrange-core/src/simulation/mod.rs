@@ -193,7 +193,7 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
         self
     }
 
-    /// Most events before the run ends with [`Error::Limit`]; switches that change nothing are counted with them.
+    /// Most events of a run, marks among them; with more it ends with [`Error::Limit`]. Switches that change nothing are counted with them.
     #[must_use]
     pub fn max_events(mut self, limit: usize) -> Self {
         self.settings.max_events = limit;

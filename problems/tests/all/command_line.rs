@@ -1,6 +1,6 @@
 //! The program as a user meets it: what goes where, and with which exit code.
 
-use crate::program::{folder, lagrange, lagrange_in, refuses, says, text};
+use crate::program::{folder, lagrange, lagrange_in, path, refuses, says, text};
 use serde_json::Value;
 use std::fs;
 
@@ -431,6 +431,14 @@ fn events_beyond_their_limit_end_a_run() {
     let said = text(&output.stderr);
     assert!(said.contains("more than 1 event;"), "{said}");
     says(&["run", "mass-on-wheel", "--max-events", "1e3"]);
+    // Marks are events: within 10 s cos t turns three times.
+    let file = folder("marks").join("swing.lagrange");
+    let declared = "coordinates(x), kinetic = der(x)^2, potential = x^2, start(out: x = 1), mark(turns: der(x)),";
+    fs::write(&file, declared).expect("a file");
+    says(&["run", path(&file), "--max-events", "3"]);
+    let output = lagrange(&["run", path(&file), "--max-events", "2"]);
+    let said = text(&output.stderr);
+    assert!(said.contains("more than 2 events;"), "{said}");
     refuses(
         &["run", "mass-on-wheel", "--max-events", "0"],
         2,

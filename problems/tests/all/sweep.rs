@@ -38,6 +38,34 @@ fn results_do_not_depend_on_workers() {
     );
 }
 
+/// What falls from rest through h strikes with √(2 g h); the impulse is m (1 + e) times that.
+#[test]
+fn impulses_are_observed() {
+    let folder = folder("sweep-impulses");
+    let [declared, results] = ["ball.lagrange", "impulses.csv"].map(|name| folder.join(name));
+    let text = "parameters(m = 3, g = 2, e = 0), coordinates(y), kinetic = m/2 * der(y)^2, potential = m * g * y,
+        contact(floor: y >= 0, restitution = e), start(up: y = 1),";
+    fs::write(&declared, text).expect("a file");
+    says(&[
+        "sweep",
+        path(&declared),
+        "--vary",
+        "e=0..1:2",
+        "--observe",
+        "impulse floor at floor impact",
+        "--quiet",
+        "--output",
+        path(&results),
+    ]);
+    let table = fs::read_to_string(&results).expect("results");
+    let lines = table.lines().skip(1);
+    let found: Vec<f64> = lines
+        .filter_map(|line| line.split(',').nth(1)?.parse().ok())
+        .collect();
+    assert!((found[0] - 6.0).abs() < 1e-12, "{table}");
+    assert!((found[1] - 12.0).abs() < 1e-12, "{table}");
+}
+
 #[test]
 fn what_is_observed_is_what_a_single_run_tells() {
     let file = place("single.csv");

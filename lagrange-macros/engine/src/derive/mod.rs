@@ -140,6 +140,7 @@ fn derived(system: System, sink: &mut Diagnostics) -> Option<Equations> {
         .chain(loads.forcing.iter().map(|&(_, _, term)| term))
         .collect();
     let cyclic = cyclic::cyclic(&mut sheet, &inertias, &others);
+    let unloaded = cyclic::cyclic(&mut sheet, &inertias, &[]);
     let mass = mass_matrix(&mut sheet, &inertias);
     let forcing = forcing(&mut sheet, &inertias, &loads);
     let energy = energy::energies(&mut sheet, &inertias);
@@ -163,6 +164,7 @@ fn derived(system: System, sink: &mut Diagnostics) -> Option<Equations> {
         marks: outputs::marks(&mut sheet),
         branches: outputs::branches(&mut sheet),
         cyclic,
+        unloaded,
     };
     // Of equations that are not finished nothing can be said.
     let unfinished = sheet.system.pool.is_full();
@@ -281,6 +283,8 @@ pub struct Structure<P> {
     pub marks: Vec<(Vec<P>, NeedId)>,
     /// Per coordinate: neither energies nor rows nor forces depend on it.
     pub cyclic: Vec<bool>,
+    /// Per coordinate: the energies do not depend on it, so that only forces, which may depend on it, change its momentum.
+    pub unloaded: Vec<bool>,
 }
 
 /// One row; the index is constraint, contact or slip component in this order.

@@ -1,4 +1,4 @@
-//! What does not change: momenta of cyclic coordinates, and energy; and what changes them where something does.
+//! What does not change: momenta on which no energy depends, and energy; and what changes them where something does.
 
 use super::Conserved;
 use super::formula::{Formula, Statement};
@@ -15,26 +15,41 @@ const MOST_TAKERS: usize = 8;
 /// Choices of numbers at which two forms of the energy are compared.
 const SAMPLES: usize = 16;
 
+/// A rate with more to read is shortened: beside what it is the rate of, and when that is conserved, there is one line for it.
+const MOST_READ: usize = 80;
+
 /// Momenta that are shown.
-const MOST_CYCLIC: usize = 12;
+const MOST_MOMENTA: usize = 12;
 
 impl Work<'_> {
-    /// Momenta of cyclic coordinates and the energy.
+    /// Momenta that only forces change and the energy. Of a coordinate on which forces depend, as the edge of a contact does, the
+    /// momentum is told where there are modes that conserve it.
     pub fn conserved(&mut self) -> Vec<Conserved> {
         let structure = &self.equations.structure;
-        let cyclic: Vec<usize> = (0..structure.cyclic.len())
-            .filter(|&i| structure.cyclic[i])
-            .collect();
-        let mut list: Vec<Conserved> = cyclic
-            .into_iter()
-            .take(MOST_CYCLIC)
-            .map(|i| self.momentum(i))
-            .collect();
+        let mut list = Vec::new();
+        for i in 0..structure.unloaded.len() {
+            if list.len() < MOST_MOMENTA
+                && structure.unloaded[i]
+                && (structure.cyclic[i] || !self.always_pushed(i))
+            {
+                list.push(self.momentum(i));
+            }
+        }
         list.push(self.energy());
         list
     }
 
-    /// ∂L/∂v of a cyclic coordinate: changed by the forces on it alone.
+    /// Whether something other than contacts and frictions changes the momentum of coordinate i.
+    fn always_pushed(&mut self, i: usize) -> bool {
+        let constraints = self.equations.system.constraints.iter();
+        let rows = constraints.zip(&self.equations.structure.rows);
+        let mut bilateral = rows.filter(|(constraint, _)| constraint.while_contact.is_none());
+        let held = bilateral.any(|(_, row)| row.jacobian.iter().any(|&(j, _)| j == i));
+        let applied = self.generalized_load(i, &[]);
+        held || !self.pool().is_zero(applied)
+    }
+
+    /// ∂L/∂v of a coordinate on which no energy depends: changed by the forces on it alone.
     fn momentum(&mut self, i: usize) -> Conserved {
         let structure = &self.equations.structure;
         let system = &self.equations.system;
@@ -51,22 +66,12 @@ impl Work<'_> {
         let rate = match self.pool().is_zero(force) {
             true => None,
             false => {
-                let force = self.reader.formula(force);
+                let force = self.reader.formula(force).shortened(MOST_READ);
                 let rate = Formula::Letter(name.clone().rate(1));
                 Some(Statement::equal(rate, force))
             }
         };
-        let bilateral = pushing.iter().any(|&row| {
-            system
-                .constraints
-                .get(row)
-                .is_some_and(|c| c.while_contact.is_none())
-        });
-        let forced = {
-            let applied = self.generalized_load(i, &[]);
-            !self.pool().is_zero(applied)
-        };
-        let when = match (bilateral || forced, pushing.is_empty()) {
+        let when = match (self.always_pushed(i), pushing.is_empty()) {
             (true, _) => "never on its own".to_owned(),
             (false, true) => "always".to_owned(),
             (false, false) => {
@@ -88,7 +93,7 @@ impl Work<'_> {
         }
     }
 
-    /// What changes the momentum of a cyclic coordinate: ṗ = ∂L/∂q + Q, and ∂L/∂q = 0.
+    /// What changes the momentum of a coordinate on which no energy depends: ṗ = ∂L/∂q + Q, and ∂L/∂q = 0.
     fn generalized_load(&mut self, i: usize, rows: &[usize]) -> ExprId {
         let system = &self.equations.system;
         let mut terms = Vec::new();

@@ -136,7 +136,7 @@ impl Derivation {
         let rows = self.rows.iter().map(|row| {
             vec![
                 vec![words(&row.name)],
-                vec![Piece::Statement(row.declared.clone())],
+                within(&row.declared, row.region.as_ref()),
                 vec![Piece::Statement(row.acceleration.clone())],
                 vec![letter(&row.multiplier)],
                 vec![words(&row.when)],
@@ -168,12 +168,13 @@ impl Derivation {
         }
         for impact in &self.impacts {
             let [gap, rate] = &impact.when;
-            blocks.push(Block::Paragraph(vec![
-                words(format!("{}: when ", impact.contact)),
-                Piece::Statement(gap.clone()),
-                words(" and "),
-                Piece::Statement(rate.clone()),
-            ]));
+            let mut pieces = vec![words(format!("{}: when ", impact.contact))];
+            pieces.push(Piece::Statement(gap.clone()));
+            if let Some(region) = &impact.region {
+                pieces.extend([words(", "), Piece::Statement(region.clone())]);
+            }
+            pieces.extend([words(" and "), Piece::Statement(rate.clone())]);
+            blocks.push(Block::Paragraph(pieces));
             let equations = impact.equations.iter();
             blocks.push(Block::Equations(
                 equations.map(|e| (Vec::new(), e.clone())).collect(),
@@ -287,6 +288,15 @@ fn title(check: &Checked) -> &str {
     }
 }
 
+/// What holds, and the region in which it does.
+fn within(statement: &Statement, region: Option<&Statement>) -> Vec<Piece> {
+    let mut pieces = vec![Piece::Statement(statement.clone())];
+    if let Some(region) = region {
+        pieces.extend([words(" where "), Piece::Statement(region.clone())]);
+    }
+    pieces
+}
+
 fn mode_blocks(mode: &Mode, blocks: &mut Vec<Block>) {
     blocks.push(Block::Heading(3, mode.name.clone()));
     if !mode.known.is_empty() {
@@ -334,7 +344,7 @@ fn mode_blocks(mode: &Mode, blocks: &mut Vec<Block>) {
         let rows = mode.guards.iter().map(|guard| {
             vec![
                 vec![words("while")],
-                vec![Piece::Statement(guard.statement.clone())],
+                within(&guard.statement, guard.region.as_ref()),
                 vec![words(format!("else {}", guard.otherwise))],
             ]
         });

@@ -13,7 +13,7 @@ impl Work<'_> {
     pub(super) fn guards(&mut self, mode: &Mode, known: &Known) -> Vec<Guard> {
         let mut guards = Vec::new();
         for contact in excerpt(mode.contacts.len()) {
-            guards.push(self.contact_guard(contact, mode.contacts[contact], known));
+            guards.extend(self.contact_guards(contact, mode.contacts[contact], known));
         }
         for (friction, state) in mode.frictions.iter().enumerate() {
             guards.extend(self.friction_guard(friction, *state, known));
@@ -21,25 +21,37 @@ impl Work<'_> {
         guards
     }
 
-    fn contact_guard(&mut self, contact: usize, closed: bool, known: &Known) -> Guard {
+    /// A closed contact ends where it does not press, and at the edge of its region; an open one is hit within its region.
+    fn contact_guards(&mut self, contact: usize, closed: bool, known: &Known) -> Vec<Guard> {
         let item = &self.equations.system.contacts[contact];
         let name = &item.name.text;
-        let (meaning, value, otherwise) = match closed {
-            true => {
-                let force = Formula::Letter(self.names.letter(item.force));
-                (format!("{name} presses"), force, format!("{name} lost"))
-            }
-            false => {
-                let gap = self.pool().substitute(item.gap, known);
-                let gap = self.reader.formula(gap);
-                (format!("{name} is open"), gap, format!("impact at {name}"))
-            }
-        };
-        Guard {
-            meaning,
-            statement: Statement::new(value, Relation::AtLeast, Formula::ZERO),
-            otherwise,
+        let region = self.region(contact, known);
+        if !closed {
+            let gap = self.pool().substitute(item.gap, known);
+            return vec![Guard {
+                meaning: format!("{name} is open"),
+                statement: at_least_zero(self.reader.formula(gap)),
+                region,
+                otherwise: format!("impact at {name}"),
+            }];
         }
+        let force = Formula::Letter(self.names.letter(item.force));
+        let presses = (format!("{name} presses"), at_least_zero(force));
+        let within = region.map(|region| (format!("{name} is in its region"), region));
+        let guard = |(meaning, statement)| Guard {
+            meaning,
+            statement,
+            region: None,
+            otherwise: format!("{name} lost"),
+        };
+        [presses].into_iter().chain(within).map(guard).collect()
+    }
+
+    /// The region of a contact, as what is not negative there.
+    pub(super) fn region(&mut self, contact: usize, known: &Known) -> Option<Statement> {
+        let region = self.equations.system.contacts[contact].region?;
+        let region = self.pool().substitute(region, known);
+        Some(at_least_zero(self.reader.formula(region)))
     }
 
     fn friction_guard(
@@ -89,7 +101,12 @@ impl Work<'_> {
         Some(Guard {
             meaning,
             statement,
+            region: None,
             otherwise,
         })
     }
+}
+
+fn at_least_zero(formula: Formula) -> Statement {
+    Statement::new(formula, Relation::AtLeast, Formula::ZERO)
 }

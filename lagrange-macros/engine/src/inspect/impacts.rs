@@ -71,6 +71,7 @@ impl Work<'_> {
                 Statement::equal(self.reader.formula(item.gap), Formula::ZERO),
                 Statement::new(approaching, Relation::Below, Formula::ZERO),
             ],
+            region: self.region(contact, &[]),
             equations,
             note: note.trim().to_owned(),
         }

@@ -18,6 +18,7 @@ mod letter;
 mod mode;
 mod motion;
 mod names;
+mod orthonormal;
 pub mod print;
 mod readable;
 mod shown;
@@ -167,6 +168,8 @@ pub struct Row {
     pub kind: &'static str,
     /// On the level on which it is declared, = 0 or ≥ 0.
     pub declared: Statement,
+    /// The region of a contact that has one.
+    pub region: Option<Statement>,
     /// On the level of accelerations.
     pub acceleration: Statement,
     /// Its multiplier.
@@ -242,6 +245,8 @@ pub struct Guard {
     pub meaning: String,
     /// What must hold.
     pub statement: Statement,
+    /// The region in which it must hold, of a contact that is open and has one.
+    pub region: Option<Statement>,
     /// What happens where it ceases to hold.
     pub otherwise: String,
 }
@@ -264,6 +269,8 @@ pub struct Impact {
     pub contact: String,
     /// When it takes place: gap = 0, approaching.
     pub when: [Statement; 2],
+    /// The region in which it takes place, of a contact that has one.
+    pub region: Option<Statement>,
     /// Momentum balances and the laws of impact.
     pub equations: Vec<Statement>,
     /// In words: what friction does.

@@ -178,10 +178,13 @@ impl Work<'_> {
             .map(|at| {
                 let (row, name, kind, declared, relation, when) = rows[at].clone();
                 let declared = self.reader.formula(declared);
+                let contact = (0..self.system().contacts.len())
+                    .find(|&contact| self.system().contact_row(contact) == row);
                 Row {
                     name,
                     kind,
                     declared: Statement::new(declared, relation, Formula::ZERO),
+                    region: contact.and_then(|contact| self.region(contact, &[])),
                     acceleration: self.acceleration(row, &[]),
                     multiplier: self.names.letter(multipliers[row]),
                     when,

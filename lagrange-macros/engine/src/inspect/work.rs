@@ -4,6 +4,7 @@ use super::costs::Counts;
 use super::formula::{Formula, Statement};
 use super::letter::Letter;
 use super::names::Names;
+use super::orthonormal;
 use super::readable::Reader;
 use super::shown::{UnknownMode, shown};
 use super::switches::switches;
@@ -92,20 +93,19 @@ pub(super) fn derivation(
     let mut own = in_rates
         .as_mut()
         .map(|equations| std::mem::take(&mut equations.system.pool));
+    if let (Some(equations), Some(own)) = (&mut in_rates, &mut own) {
+        let guards = guards(&equations.system);
+        orthonormal::reduce(equations, &mut Reader::new(own, &names, guards));
+    }
     let (equations, pool) = match (&in_rates, &mut own) {
         (Some(equations), Some(own)) => (equations, own),
         _ => (&program.equations, pool),
     };
     let system = &equations.system;
-    let guards = system
-        .branches
-        .iter()
-        .map(|branch| branch.declared)
-        .collect();
     let mut work = Work {
         equations,
         names: &names,
-        reader: Reader::new(pool, &names, guards),
+        reader: Reader::new(pool, &names, guards(system)),
         solves: true,
         counts: &counts,
     };
@@ -161,6 +161,12 @@ pub(super) fn derivation(
         hints: hints.map(|hint| hint.text.clone()).collect(),
         notes,
     })
+}
+
+/// What decides the branches, as declared.
+fn guards(system: &System) -> Vec<ExprId> {
+    let branches = system.branches.iter();
+    branches.map(|branch| branch.declared).collect()
 }
 
 /// The equations with the rates of bodies as velocities, where there are bodies.

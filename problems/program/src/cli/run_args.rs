@@ -37,7 +37,7 @@ pub(super) struct RunArgs {
     /// Method of integration [default: auto].
     #[arg(long, value_name = "M", value_parser = method)]
     method: Option<Method>,
-    /// Events after which the run ends with an error [default: 100000; of each run of a sweep 10000].
+    /// Most events of a run, marks among them; with more it ends with an error [default: 100000; of each run of a sweep 10000].
     #[arg(long, value_name = "N", value_parser = number_of("events", 1, usize::MAX), allow_hyphen_values = true)]
     max_events: Option<usize>,
 }

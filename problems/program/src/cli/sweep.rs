@@ -43,8 +43,8 @@ pub(super) struct Sweeps {
     #[arg(long, default_value_t = 1, requires = "sample", value_parser = whole::<u32>, allow_hyphen_values = true)]
     seed: u32,
     /// What to read from each run: a coordinate, velocity, force, output or energy at an event ("theta at shell lost", "t at grip
-    /// slips", "energy at floor impact 2") or at the end ("x"); "count floor impact"; or a named result of the scene ("leave angle").
-    /// May be repeated.
+    /// slips", "energy at floor impact 2") or at the end ("x"); "impulse floor at floor impact"; "count floor impact"; or a named
+    /// result of the scene ("leave angle"). May be repeated.
     #[arg(long, value_name = "WHAT", required = true)]
     observe: Vec<String>,
     #[command(flatten)]

@@ -8,6 +8,7 @@ mod sampling;
 use crate::request::Request;
 use crate::request::event::event;
 use core::ops::Range;
+use lagrange_core::__private::places::Normal;
 use lagrange_core::certificate::Certificate;
 use lagrange_core::mode::{FrictionMode, Mode};
 use lagrange_core::prelude::*;
@@ -112,6 +113,18 @@ pub enum Source {
 }
 
 impl Force {
+    /// The contact without which it does not act, if there is one.
+    pub fn contact(&self, description: &Description) -> Option<usize> {
+        match self.source {
+            Source::Constraint(i) => description.constraints[i].while_contact,
+            Source::Contact(i) => Some(i),
+            Source::Friction(i) => match description.frictions[i].normal {
+                Normal::Contact(contact) => Some(contact),
+                _ => None,
+            },
+        }
+    }
+
     /// Whether it acts in `mode`.
     pub fn acts(&self, description: &Description, mode: &Mode) -> bool {
         match self.source {

@@ -156,6 +156,22 @@ pub enum Refusal {
         /// `count grip slips`
         alone: String,
     },
+    /// The impulse of something else than an impact.
+    NoImpulse {
+        /// `floor lost`
+        event: String,
+    },
+    /// A force just before the contact closes on which it rests.
+    NotYet {
+        /// Of a contact, or of what acts while it is closed.
+        force: String,
+        /// The contact.
+        contact: String,
+        /// `floor impact`
+        event: String,
+        /// Whether it is an impact.
+        has_impulse: bool,
+    },
     /// An axis of a grid without the number of its values.
     Uncounted {
         /// The axis.
@@ -262,6 +278,25 @@ impl fmt::Display for Refusal {
                 f,
                 "`{alone}` is read from the whole run: leave out what follows it in `{asked}`; --end-after EVENT ends runs earlier"
             ),
+            Refusal::NoImpulse { event } => write!(
+                f,
+                "`{event}` has no impulse: impacts have, as in `impulse floor at floor impact`"
+            ),
+            Refusal::NotYet {
+                force,
+                contact,
+                event,
+                has_impulse,
+            } => {
+                write!(
+                    f,
+                    "`{force} at {event}` is 0 in every run, since `{contact}` is open just before"
+                )?;
+                match has_impulse {
+                    true => write!(f, "; `impulse {force} at {event}` is the impulse"),
+                    false => Ok(()),
+                }
+            }
             Refusal::Ended { asked, last, by } => write!(
                 f,
                 "the run ends at t = {}{by}, before t = {}; ask for an earlier time",

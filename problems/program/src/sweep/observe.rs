@@ -3,6 +3,7 @@
 //! ```text
 //! theta at shell lost        a coordinate, velocity, force, output or energy just before an event, `t` for its time
 //! theta at floor impact 2    … at its second occurrence
+//! impulse floor at floor impact    the impulse of a force in an impact
 //! count floor impact         how often
 //! theta, theta at the end    at the end of the run; `theta at end` where nothing is called `end`
 //! modes                      the sequence of its switches
@@ -12,6 +13,7 @@ use super::modes::Switches;
 use super::unit;
 use crate::notation::velocity_name;
 use crate::outcome::{Force, forces};
+use crate::report::table::impulse_unit;
 use crate::request::event::event;
 use crate::request::{Quantity, Refusal, find_state};
 use crate::scene::Scene;
@@ -32,6 +34,8 @@ enum What {
     Position(usize),
     Velocity(usize),
     Force(usize),
+    /// Of this force, in an impact.
+    Impulse(usize),
     Output(usize),
     Kinetic,
     Potential,
@@ -71,7 +75,15 @@ impl Observation {
                 (quantity_of(quantity, description)?, At::End)
             }
             (None, Some((quantity, event))) => {
-                (quantity_of(quantity, description)?, at(event, description)?)
+                let found = self::event(event, description)?;
+                let what = match quantity.strip_prefix("impulse ") {
+                    Some(force) => impulse_of(force, found, event, description)?,
+                    None => quantity_of(quantity, description)?,
+                };
+                if let What::Force(row) = what {
+                    refuse_before_contact(row, found, event, description)?;
+                }
+                (what, At::Event(found.into()))
             }
             (None, None) => (quantity_of(name, description)?, At::End),
         };
@@ -89,6 +101,7 @@ impl Observation {
             What::Position(index) => unit(description, *index, Quantity::Position),
             What::Velocity(index) => unit(description, *index, Quantity::Velocity),
             What::Force(row) => description.units.row(*row).to_owned(),
+            What::Impulse(row) => impulse_unit(description.units.row(*row)),
             What::Output(index) => description.observes[*index].unit.to_owned(),
             What::Kinetic | What::Potential | What::Energy => description.units.energy.to_owned(),
             What::Count | What::Modes(_) => String::new(),
@@ -140,6 +153,7 @@ impl Observation {
             (What::Position(i), _) => state.q[*i],
             (What::Velocity(i), _) => state.v[*i],
             (What::Force(row), Some(event)) => event.forces[*row],
+            (What::Impulse(row), Some(event)) => event.impulses[*row],
             // The rest is not kept of a run.
             _ => {
                 let mut sampler = trajectory.sampler();
@@ -181,6 +195,53 @@ fn every(text: &str, description: &'static Description) -> Result<At, Refusal> {
             alone: format!("count {kind}"),
         }),
     }
+}
+
+/// The impulse of a force, of which only impacts have any.
+fn impulse_of(
+    force: &str,
+    (_, kind, _): (Subject, EventKind, usize),
+    event: &str,
+    description: &'static Description,
+) -> Result<What, Refusal> {
+    match (kind, quantity_of(force, description)?) {
+        (EventKind::Impact, What::Force(row)) => Ok(What::Impulse(row)),
+        (_, What::Force(_)) => Err(Refusal::NoImpulse {
+            event: event.to_owned(),
+        }),
+        _ => {
+            let forces = forces(description);
+            let names = forces.iter().map(|force| force.name.as_str());
+            Err(Refusal::unknown("force", force, names))
+        }
+    }
+}
+
+/// Before a contact closes, what acts only while it is closed is zero in every run.
+fn refuse_before_contact(
+    row: usize,
+    (subject, kind, _): (Subject, EventKind, usize),
+    event: &str,
+    description: &'static Description,
+) -> Result<(), Refusal> {
+    let closes = matches!(
+        kind,
+        EventKind::Impact | EventKind::Closed | EventKind::Accumulates { .. }
+    );
+    let forces = forces(description);
+    let force = forces.iter().find(|force| force.row == row);
+    let force = force.filter(|force| {
+        let contact = force.contact(description);
+        closes && contact.is_some_and(|contact| subject == Subject::Contact(contact))
+    });
+    force.map_or(Ok(()), |force| {
+        Err(Refusal::NotYet {
+            force: force.name.clone(),
+            contact: subject.name(description).to_owned(),
+            event: event.to_owned(),
+            has_impulse: kind == EventKind::Impact,
+        })
+    })
 }
 
 fn quantity_of(name: &str, description: &'static Description) -> Result<What, Refusal> {
@@ -243,6 +304,33 @@ mod tests {
         let named = scene("named.lagrange", &named).expect("a declaration");
         let observed = Observation::new("x at end", named).expect("a stop");
         assert!(!matches!(observed.at, At::End));
+    }
+
+    #[test]
+    fn at_an_impact_the_contact_has_an_impulse_and_no_force() {
+        let declared = "parameters(m: \"kg\" = 2), coordinates(x: \"m\", y: \"m\"), kinetic = m/2 * (der(x)^2 + der(y)^2),
+            contact(floor: y >= 0), friction(rub on floor: slip = der(x), static = 0.1), start(a: der(y) = 0)";
+        let scene = scene("ball.lagrange", declared).expect("a declaration");
+        for (asked, answer) in [
+            (
+                "floor at floor impact",
+                "`impulse floor at floor impact` is the impulse",
+            ),
+            (
+                "rub at floor impact 2",
+                "`impulse rub at floor impact 2` is the impulse",
+            ),
+            ("floor at floor closed", "`floor` is open just before"),
+            ("impulse floor at floor lost", "`floor lost` has no impulse"),
+            ("impulse x at floor impact", "there are: floor, rub"),
+        ] {
+            let refusal = Observation::new(asked, scene).expect_err(asked).to_string();
+            assert!(refusal.contains(answer), "{refusal}");
+        }
+        Observation::new("floor at rub sticks", scene).expect("it is closed before");
+        let asked = "impulse floor at floor impact";
+        let observed = Observation::new(asked, scene).expect("an impulse");
+        assert_eq!(observed.unit(scene.description()), "N s");
     }
 
     #[test]

@@ -7,12 +7,12 @@
 //!   "energies":  { "kinetic": F, "potential": F, "lagrangian": S | null },
 //!   "bodies":    [{ "name", "text", "definitions": [S] }],
 //!   "motion":    [{ "coordinate": F, "equation": S }],
-//!   "rows":      [{ "name", "kind", "declared": S, "acceleration": S, "multiplier": F, "acts" }],
+//!   "rows":      [{ "name", "kind", "declared": S, "where": S | null, "acceleration": S, "multiplier": F, "acts" }],
 //!   "mode_count", "modes": [{ "name", "known": [S], "unknowns": [F], "equations": [S], "solution": [S], "left_out": [F],
-//!                 "guards": [{ "while": S, "otherwise" }], "operations", "operations_with_guards",
+//!                 "guards": [{ "while": S, "where": S | null, "otherwise" }], "operations", "operations_with_guards",
 //!                 "functions": { "constants", "unknowns", "accelerations", "whole", "convolutions" } | null }],
 //!   "switches":  [{ "from", "to", "label" }]        indices of modes
-//!   "impacts":   [{ "contact", "when": [S, S], "equations": [S], "note" }],
+//!   "impacts":   [{ "contact", "when": [S, S], "where": S | null, "equations": [S], "note" }],
 //!   "conserved": [{ "name", "quantity": S, "rate": S | null, "when" }],
 //!   "checks":    [{ "name", "claim", "outcome" }],
 //!   "operations": [{ "effect", "alone", "shared" }],
@@ -34,10 +34,7 @@ pub fn json(d: &Derivation) -> String {
     let energies = object(&[
         ("kinetic", formula(&d.kinetic.right)),
         ("potential", formula(&d.potential.right)),
-        (
-            "lagrangian",
-            d.lagrangian.as_ref().map_or("null".to_owned(), statement),
-        ),
+        ("lagrangian", maybe(d.lagrangian.as_ref())),
     ]);
     let whole = object(&[
         ("schema", quoted("lagrange.derivation.1")),
@@ -104,6 +101,7 @@ fn row(row: &Row) -> String {
         ("name", quoted(&row.name)),
         ("kind", quoted(row.kind)),
         ("declared", statement(&row.declared)),
+        ("where", maybe(row.region.as_ref())),
         ("acceleration", statement(&row.acceleration)),
         ("multiplier", letter(&row.multiplier)),
         ("acts", quoted(&row.when)),
@@ -114,6 +112,7 @@ fn mode(mode: &Mode) -> String {
     let guards = mode.guards.iter().map(|guard| {
         object(&[
             ("while", statement(&guard.statement)),
+            ("where", maybe(guard.region.as_ref())),
             ("otherwise", quoted(&guard.otherwise)),
         ])
     });
@@ -155,17 +154,17 @@ fn impact(impact: &Impact) -> String {
     object(&[
         ("contact", quoted(&impact.contact)),
         ("when", list(impact.when.iter().map(statement))),
+        ("where", maybe(impact.region.as_ref())),
         ("equations", list(impact.equations.iter().map(statement))),
         ("note", quoted(&impact.note)),
     ])
 }
 
 fn conserved(item: &Conserved) -> String {
-    let rate = item.rate.as_ref();
     object(&[
         ("name", quoted(&item.name)),
         ("quantity", statement(&item.quantity)),
-        ("rate", rate.map_or("null".to_owned(), statement)),
+        ("rate", maybe(item.rate.as_ref())),
         ("when", quoted(&item.when)),
     ])
 }
@@ -193,6 +192,10 @@ fn letter(l: &Letter) -> String {
 fn formula(f: &Formula) -> String {
     let (text, latex) = (text::formula(f), latex::formula(f));
     object(&[("text", quoted(&text)), ("latex", quoted(&latex))])
+}
+
+fn maybe(s: Option<&Statement>) -> String {
+    s.map_or("null".to_owned(), statement)
 }
 
 fn statement(s: &Statement) -> String {

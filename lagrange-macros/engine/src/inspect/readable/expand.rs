@@ -20,8 +20,13 @@ impl Reader<'_> {
 
     /// Products over moving sums multiplied out; `None` if that is too long.
     pub fn multiplied_out(&mut self, e: ExprId) -> Option<ExprId> {
+        self.multiplied_out_within(MOST_EXPANDED, e)
+    }
+
+    /// The same for a sum that would have no more than so many terms.
+    pub fn multiplied_out_within(&mut self, most: usize, e: ExprId) -> Option<ExprId> {
         let mut terms = Vec::new();
-        self.open(e, (Rational::ONE, Vec::new()), &mut terms)?;
+        self.open(most, e, (Rational::ONE, Vec::new()), &mut terms)?;
         let mut list = Vec::new();
         for (c, factors) in terms {
             list.push((self.pool.monomial(c, &factors), Rational::ONE));
@@ -32,11 +37,12 @@ impl Reader<'_> {
     /// Adds the terms of e times `by`.
     fn open(
         &self,
+        most: usize,
         e: ExprId,
         by: (Rational, Factors),
         terms: &mut Vec<(Rational, Factors)>,
     ) -> Option<()> {
-        if terms.len() > MOST_EXPANDED {
+        if terms.len() > most {
             return None;
         }
         let (c, mut factors) = by;
@@ -47,7 +53,7 @@ impl Reader<'_> {
                 terms: own,
             } => {
                 for &(term, size) in own {
-                    self.open(term, (c.checked_mul(size)?, factors.clone()), terms)?;
+                    self.open(most, term, (c.checked_mul(size)?, factors.clone()), terms)?;
                 }
                 if !constant.is_zero() {
                     terms.push((c.checked_mul(*constant)?, factors));
@@ -67,7 +73,7 @@ impl Reader<'_> {
                     false => rest[at].1 = exponent.checked_sub(Rational::ONE)?,
                 }
                 let mut inner = Vec::new();
-                self.open(base, (c, factors), &mut inner)?;
+                self.open(most, base, (c, factors), &mut inner)?;
                 for (c, mut factors) in inner {
                     // What is left of the product can open in turn.
                     let mut still = Vec::new();
@@ -77,7 +83,7 @@ impl Reader<'_> {
                             false => factors.push((base, r)),
                         }
                     }
-                    self.open_factors(&still, (c, factors), terms)?;
+                    self.open_factors(most, &still, (c, factors), terms)?;
                 }
             }
             _ => {
@@ -91,24 +97,25 @@ impl Reader<'_> {
     /// Multiplies `by` with powers of sums.
     fn open_factors(
         &self,
+        most: usize,
         sums: &[(ExprId, Rational)],
         by: (Rational, Factors),
         terms: &mut Vec<(Rational, Factors)>,
     ) -> Option<()> {
         let Some((&(base, exponent), rest)) = sums.split_first() else {
             terms.push(by);
-            return (terms.len() <= MOST_EXPANDED).then_some(());
+            return (terms.len() <= most).then_some(());
         };
         let mut partial = vec![by];
         for _ in 0..exponent.numerator() {
             let mut next = Vec::new();
             for term in partial {
-                self.open(base, term, &mut next)?;
+                self.open(most, base, term, &mut next)?;
             }
             partial = next;
         }
         for term in partial {
-            self.open_factors(rest, term, terms)?;
+            self.open_factors(most, rest, term, terms)?;
         }
         Some(())
     }

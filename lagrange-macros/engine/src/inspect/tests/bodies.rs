@@ -8,6 +8,7 @@ use crate::derive::{Equations, OutputId};
 use crate::inspect::print;
 use crate::model;
 use crate::symbolic::{ExprId, Symbol};
+use quote::quote;
 use std::collections::BTreeMap;
 
 /// A state: numbers by name, and the velocities' derivative.
@@ -223,6 +224,36 @@ fn equations_in_body_rates_are_those_in_quaternions() {
         }
     }
     assert!(seen >= 4, "{seen} scenes have bodies in space");
+}
+
+/// A point up an axis adds to the moments of inertia, as the theorem of parallel axes says, and to nothing else.
+#[test]
+fn axes_are_at_right_angles() {
+    let tokens = quote! {
+        #[lagrange(
+            attitude(top: q),
+            define(c = arm * top.axes[2]),
+            kinetic = m/2 * dot(der(c), der(c)) + I/2 * dot(top.body_rate, top.body_rate),
+            potential = m * g * c[2],
+        )]
+        struct Top { m: f64, g: f64, arm: f64, I: f64 }
+    };
+    let d = derivation(tokens);
+    let statements = d.motion.iter().map(|e| &e.statement);
+    let statements = statements.chain(d.conserved.iter().map(|c| &c.quantity));
+    let told: Vec<String> = [&d.kinetic]
+        .into_iter()
+        .chain(statements)
+        .map(print::text::statement)
+        .collect();
+    let expected = [
+        "T = ½ (m arm² + I) ω₀² + ½ (m arm² + I) ω₁² + ½ I ω₂²",
+        "(m arm² + I) ω̇₀ = m arm (arm ω₁ ω₂ + g e₁₂)",
+        "(m arm² + I) ω̇₁ = −m arm (arm ω₀ ω₂ + g e₀₂)",
+        "I ω̇₂ = 0",
+        "E = T + V",
+    ];
+    assert_eq!(told, expected);
 }
 
 /// Euler's equations, as they stand in every textbook.

@@ -43,6 +43,38 @@ fn modes_are_found_by_name() {
     assert_eq!(bounce, "y\u{307}⁺ = −½ y\u{307}⁻");
 }
 
+/// The edge of a contact ends its mode, bounds its impacts, and leaves the momentum along it as it is.
+#[test]
+fn a_region_is_told_wherever_its_contact_acts() {
+    let tokens = quote! {
+        #[lagrange(
+            coordinates(x, y),
+            kinetic = m/2 * (der(x)^2 + der(y)^2),
+            potential = m * g * y,
+            contact(table: y >= 0, where x <= edge),
+            contact(slope: y >= x * slant, where x >= edge),
+        )]
+        struct Slide { m: f64, g: f64, edge: f64, slant: f64 }
+    };
+    let d = crate::inspect(tokens, None).expect("a derivation");
+    let text = print::plain(&d);
+    for line in [
+        "  table  y ≥ 0 where edge − x ≥ 0",
+        "while  y ≥ 0 where edge − x ≥ 0",
+        "while  edge − x ≥ 0",
+        "  table: when y = 0, edge − x ≥ 0 and y\u{307}⁻ < 0",
+        "p\u{307}ₓ = −slant N_slope  while nothing acts at slope",
+    ] {
+        assert!(text.contains(line), "{line} in {text}");
+    }
+    let latex = print::paper(&d);
+    assert_eq!(
+        latex.matches(r"\mathrm{edge} - x \ge 0").count(),
+        6,
+        "{latex}"
+    );
+}
+
 /// A place that makes a force infinite is no number in it.
 #[test]
 fn a_mode_at_a_pole_keeps_its_letter() {

@@ -103,6 +103,7 @@ fn equations(system: System, outputs: Vec<Output>) -> Equations {
         stops: Vec::new(),
         marks: Vec::new(),
         cyclic: Vec::new(),
+        unloaded: Vec::new(),
     };
     Equations {
         system,

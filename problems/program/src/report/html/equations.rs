@@ -5,7 +5,7 @@ use crate::outcome::Outcome;
 use lagrange_core::prelude::*;
 use lagrange_engine::inspect::print::mathml::{self, escaped};
 use lagrange_engine::inspect::print::{said, titled};
-use lagrange_engine::inspect::{self, Formula, Guard, Letter};
+use lagrange_engine::inspect::{self, Formula, Guard, Letter, Statement};
 use lagrange_engine::inspect_without;
 use std::fmt::Write;
 
@@ -107,7 +107,7 @@ fn rows(derived: &inspect::Derivation) -> String {
             "<tr><th scope=\"row\">{} ({})</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
             escaped(&row.name),
             row.kind,
-            mathml::statement(&row.declared),
+            within(&row.declared, row.region.as_ref()),
             mathml::statement(&row.acceleration),
             letter(&row.multiplier),
             escaped(&row.when),
@@ -201,7 +201,7 @@ fn mode(mode: &inspect::Mode, out: &mut String) {
         format!(
             "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td></tr>\n",
             escaped(&guard.meaning),
-            mathml::statement(&guard.statement),
+            within(&guard.statement, guard.region.as_ref()),
             escaped(&guard.otherwise),
         )
     };
@@ -211,6 +211,12 @@ fn mode(mode: &inspect::Mode, out: &mut String) {
         "<table>\n<thead><tr><th scope=\"col\">as long as</th><th scope=\"col\">that is</th><th scope=\"col\">else</th></tr></thead>\n\
          <tbody>\n{rows}</tbody>\n</table>"
     );
+}
+
+/// What holds, and the region in which it does.
+fn within(statement: &Statement, region: Option<&Statement>) -> String {
+    let region = region.map(|region| format!(" where {}", mathml::statement(region)));
+    mathml::statement(statement) + &region.unwrap_or_default()
 }
 
 /// What happens at the impacts that there were.
@@ -224,9 +230,12 @@ fn impacts(outcome: &Outcome, derived: &inspect::Derivation) -> String {
     let mut out = String::new();
     for impact in derived.impacts.iter().filter(|impact| hit(&impact.contact)) {
         let [gap, rate] = impact.when.each_ref().map(mathml::statement);
+        let region = impact.region.as_ref();
+        let region = region.map(|region| format!(", {}", mathml::statement(region)));
+        let region = region.unwrap_or_default();
         let _ = write!(
             out,
-            "<h5>{}</h5>\n<p>When {gap} and {rate}:</p>\n{}<p>{}</p>\n",
+            "<h5>{}</h5>\n<p>When {gap}{region} and {rate}:</p>\n{}<p>{}</p>\n",
             escaped(&impact.contact),
             impact.equations.iter().map(titled).collect::<String>(),
             escaped(&impact.note)

@@ -155,7 +155,7 @@ fn told_of(kind: Choice, outcome: &Outcome) -> Option<String> {
 }
 
 /// Of a force's impulse, `N s`.
-pub(super) fn impulse_unit(force: &str) -> String {
+pub(crate) fn impulse_unit(force: &str) -> String {
     match force {
         "" => String::new(),
         unit if unit.contains('/') => format!("({unit}) s"),
