@@ -78,8 +78,8 @@ impl fmt::Display for Error {
             } => write!(
                 f,
                 "the start is below the surface of `{item}`: gap {} (accepted: {}); begin above it, or have the \
-                 nearest positions taken (`--project`, in Rust `project_start(true)`), or, for a body that hangs under a surface, let the \
-                 contact's region (`where …`) leave that place out",
+                 nearest positions taken (`--project`, in Rust `project_start(true)`); if the body belongs on that side, turn the contact's inequality round; \
+                 if it hangs under a surface that ends, let the contact's region (`where …`) leave that place out",
                 short(*gap),
                 accepted(-tolerance)
             ),

@@ -51,17 +51,17 @@ impl<T: Scalar> Run<T> {
         }
         self.meet_hit(hit, end)?;
         self.recorder.finished |= self.has_seen_all();
-        Ok(())
+        // The marks of the step are among them.
+        match !self.recorder.finished && self.events() > self.settings.max_events {
+            true => Err(self.limit("events", self.settings.max_events)),
+            false => Ok(()),
+        }
     }
 
     /// Whether the run has neither come to a limit nor been stopped.
     fn check_whether_to_go_on(&mut self) -> Result<(), Error> {
         if self.recorder.trajectory.work.steps >= self.settings.max_steps {
             return Err(self.limit("steps", self.settings.max_steps));
-        }
-        // Marks of the last step among them.
-        if self.events() > self.settings.max_events {
-            return Err(self.limit("events", self.settings.max_events));
         }
         self.check_reach()?;
         self.check_progress()?;

@@ -231,6 +231,11 @@ fn what_only_a_file_has_is_checked() {
             "1:42: `circle` is not the name of a form; did you mean `disc`? [E901]",
         ),
         (
+            format!("{rest}, draw(floor: (0, 0) to (1, 0))"),
+            "1:49: a list of 2 where a single value is expected; a floor is drawn by its height, `draw(floor: 0)`; from place to \
+             place there is `draw(ground: (0, 0) to (l, 0))` [E302]",
+        ),
+        (
             format!("parameters(m: \"kg\" = 1 l[2]: \"m\" = 0.5), {rest}"),
             "1:24: expected a comma before `l`",
         ),

@@ -2,7 +2,7 @@
 
 mod join;
 pub(crate) mod pieces;
-mod rounding;
+pub(crate) mod rounding;
 mod sampling;
 
 use crate::request::Request;

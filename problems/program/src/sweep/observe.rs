@@ -12,6 +12,7 @@
 use super::modes::Switches;
 use super::unit;
 use crate::notation::velocity_name;
+use crate::outcome::rounding::impulse;
 use crate::outcome::{Force, forces};
 use crate::report::table::impulse_unit;
 use crate::request::event::event;
@@ -153,7 +154,7 @@ impl Observation {
             (What::Position(i), _) => state.q[*i],
             (What::Velocity(i), _) => state.v[*i],
             (What::Force(row), Some(event)) => event.forces[*row],
-            (What::Impulse(row), Some(event)) => event.impulses[*row],
+            (What::Impulse(row), Some(event)) => impulse(event, *row, trajectory.description()),
             // The rest is not kept of a run.
             _ => {
                 let mut sampler = trajectory.sampler();

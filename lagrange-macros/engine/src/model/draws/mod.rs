@@ -12,6 +12,7 @@ use crate::symbolic::ExprId;
 
 pub(super) use arrow::placed_force;
 
+const BY_HEIGHT: &str = "a floor is drawn by its height, `draw(floor: 0)`; from place to place there is `draw(ground: (0, 0) to (l, 0))`";
 const PLACE: Context = Context::new(Reach::Positions, "a picture");
 
 /// Places that a picture may have: nobody sees more.
@@ -124,7 +125,15 @@ impl Elaboration<'_> {
         match form {
             Form::Floor => {
                 for height in &declared.places {
-                    draw.places.push(vec![self.scalar(height, PLACE)?]);
+                    match self.value(height, PLACE)? {
+                        Value::Scalar(e) => draw.places.push(vec![e]),
+                        Value::List(place) => {
+                            let told = Code::ListForScalar;
+                            self.sink
+                                .report(told, height.extent, &[&place.len(), &BY_HEIGHT]);
+                            return None;
+                        }
+                    }
                 }
             }
             Form::Arrow => self.arrow(declared, index, &mut draw)?,

@@ -1,11 +1,12 @@
 //! What constraints say together: which follow from others or contradict them, which velocity constraints are
-//! constraints on positions, and which coordinates were put into the energies too early.
+//! constraints on positions, and which coordinates were put into the energies too early; and which dissipations damp nothing.
 //!
 //! Derivatives are exact; ranks are taken in floating point at a few arbitrary states, which need not be on the
 //! constraints: what holds there holds identically.
 
 mod absorbed;
 mod dependent;
+mod feeding;
 mod integrable;
 
 use super::elaboration::Elaboration;
@@ -39,6 +40,7 @@ impl Elaboration<'_> {
         }
         self.integrable(declaration, &rows);
         self.absorbed();
+        self.feeding();
     }
 
     /// The rows of all constraints.

@@ -26,6 +26,25 @@ fn remarks(items: &str) -> Vec<String> {
 }
 
 #[test]
+fn a_dissipation_that_only_gives_energy_is_told() {
+    for (items, given) in [
+        ("dissipation(d: -m/2*(der(x)^2 + der(y)^2))", true),
+        ("dissipation(d: -m*abs(der(x))^3)", true),
+        ("dissipation(d: -m/2*norm([der(x), der(y)]))", true),
+        ("dissipation(d: m/2*der(x)^2)", false),
+        ("dissipation(d: m*abs(der(x))^3)", false),
+        // A belt drags, and what swings by itself takes energy where it swings far.
+        ("dissipation(d: m/2*(der(x) - a)^2)", false),
+        ("dissipation(d: m/2*(x^2 - 1)*der(x)^2)", false),
+        ("dissipation(d: m*x*der(x)^2)", false),
+    ] {
+        let told = remarks(items);
+        let gives = told.iter().any(|text| text.starts_with("`d` gives energy"));
+        assert_eq!(gives, given, "{items}: {told:?}");
+    }
+}
+
+#[test]
 fn dependent_constraints_are_told() {
     let wrong = [
         (

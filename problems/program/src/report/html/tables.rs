@@ -3,6 +3,7 @@
 use super::{Shown, short};
 use crate::notation::{is_angle, symbol};
 use crate::outcome::forces;
+use crate::outcome::rounding::ROUNDING;
 use crate::report::table::impulse_unit;
 use crate::report::words::brief;
 use lagrange_core::error::Shortest;
@@ -80,6 +81,7 @@ fn events(run: &Shown) -> String {
         ];
         row.extend(coordinates.iter().zip(&event.state.q).map(|(c, q)| {
             short(match is_angle(c) {
+                true if q.abs() < ROUNDING => 0.0,
                 true => q.to_degrees(),
                 false => *q,
             })

@@ -4,6 +4,7 @@ use super::decimals::{Decimals, time};
 use super::line::{Line, lines};
 use super::{impulse_unit, page};
 use crate::notation::{is_angle, symbol};
+use crate::outcome::rounding::ROUNDING;
 use crate::outcome::{Force, Outcome, forces};
 use crate::quantity::Quantity;
 use crate::report::telling;
@@ -27,7 +28,7 @@ impl Column {
     }
 
     /// As many as the lines need. What is nothing but error in all of them is shown beside how far its velocities carry a coordinate, or what an
-    /// output ever is.
+    /// output ever is; an angle that is nothing but rounding, beside 1 rad.
     fn decimals(&self, lines: &[Line], outcome: &Outcome) -> Decimals {
         let told: Vec<f64> = lines.iter().filter_map(|line| self.of(line)).collect();
         let largest = |values: &[f64]| values.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
@@ -48,9 +49,14 @@ impl Column {
             None => largest(&speeds) * outcome.lasts(),
         };
         let ever = ever * self.scale;
-        match largest(&told) < outcome.tolerance * ever {
-            true => Decimals::of([ever]),
-            false => Decimals::of(told),
+        let coordinates = outcome.description.coordinates;
+        let turn = coordinates.get(self.place).filter(|c| is_angle(c));
+        if largest(&told) < outcome.tolerance * ever {
+            Decimals::of([ever])
+        } else if turn.is_some() && largest(&told) < ROUNDING * self.scale {
+            Decimals::of([self.scale])
+        } else {
+            Decimals::of(told)
         }
     }
 }
