@@ -403,7 +403,7 @@ pub struct Dissipation {
 pub struct Branch {
     /// ≥ 0 selects `then`.
     pub guard: ExprId,
-    /// The same as it is declared, for the reader.
+    /// The same as it is declared: for the reader, and to be compared with what is declared to vanish with it.
     pub declared: ExprId,
     /// What holds on the `then` side, in the words of the user: `x - y >= 0`.
     pub then: String,

@@ -49,6 +49,62 @@ struct Stored {
     apart: f64,
 }
 
+/// The depth against a length, raised with it.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, z),
+    kinetic = first/2 * der(x)^2 + second/2 * der(z)^2,
+    force(elastic: stiffness * (max(0, x - z + 0.3)/unit)^(3/2) along der(z) - der(x)),
+)]
+struct Against {
+    first: f64,
+    second: f64,
+    stiffness: f64,
+    unit: f64,
+}
+
+/// A condition on another multiple of the depth than the one that is raised, as a product with its root.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, z),
+    define(depth = x - z + apart),
+    kinetic = first/2 * der(x)^2 + second/2 * der(z)^2,
+    force(elastic: if((z - x)/apart <= 1, stiffness * depth * sqrt(depth), 0) along der(z) - der(x)),
+)]
+struct Ratio {
+    first: f64,
+    second: f64,
+    stiffness: f64,
+    apart: f64,
+}
+
+/// A depth that is written with its size, in a potential.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, z),
+    define(depth = x - z + 0.1),
+    kinetic = first/2 * der(x)^2 + second/2 * der(z)^2,
+    potential = stiffness/2.7 * ((abs(depth) + depth)/2)^2.7,
+)]
+struct Folded {
+    first: f64,
+    second: f64,
+    stiffness: f64,
+}
+
+/// A distance that is compared with a number, whose square decides.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, z),
+    kinetic = first/2 * der(x)^2 + second/2 * der(z)^2,
+    force(elastic: stiffness * max(0, 0.4 - norm([x - z, 0]))^2.5 along der(z) - der(x)),
+)]
+struct Apart {
+    first: f64,
+    second: f64,
+    stiffness: f64,
+}
+
 /// A ball on an elastic ground, with the losses of Hunt and Crossley (1975).
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
@@ -163,6 +219,37 @@ fn elastic_bodies_part_as_the_laws_of_impact_say_and_when_hertz_says() {
             apart,
         });
     }
+}
+
+#[test]
+fn elastic_bodies_part_alike_however_their_depth_is_written() {
+    let mut random = Random::new(1883);
+    for unit in [0.02, 0.5] {
+        Meeting::drawn(&mut random, 1.5).check(0.3, |[first, second], stiffness| Against {
+            first,
+            second,
+            stiffness: stiffness * unit.powf(1.5),
+            unit,
+        });
+    }
+    for apart in [0.15, 0.37] {
+        Meeting::drawn(&mut random, 1.5).check(apart, |[first, second], stiffness| Ratio {
+            first,
+            second,
+            stiffness,
+            apart,
+        });
+    }
+    Meeting::drawn(&mut random, 1.7).check(0.1, |[first, second], stiffness| Folded {
+        first,
+        second,
+        stiffness,
+    });
+    Meeting::drawn(&mut random, 2.5).check(0.4, |[first, second], stiffness| Apart {
+        first,
+        second,
+        stiffness,
+    });
 }
 
 /// It bounces lower and lower, and all methods say how.

@@ -6,6 +6,7 @@ mod hyperdual;
 mod kit;
 mod notation;
 mod numbers;
+mod onsets;
 mod smooth;
 mod structure;
 mod systems;

@@ -1,7 +1,7 @@
 //! "Simplifies to" tables, operation counts, linear coefficients, and what an expression contains.
 
 use super::read::Desk;
-use crate::symbolic::{Function, Symbol};
+use crate::symbolic::{Function, Rational, Symbol};
 
 #[test]
 fn simplifies_to() {
@@ -267,4 +267,42 @@ fn zeros_are_those_of() {
             assert_eq!(simple, desk.read(expected), "{text}, {signed}");
         }
     }
+}
+
+/// Powers of what is chosen between x and zero are choices of powers, however they are written, and have the same values.
+#[test]
+fn what_is_chosen_is_raised_where_it_is() {
+    let mut desk = Desk::default();
+    let ([x, zero, k], power) = (
+        ["x - 1/10", "0", "k"].map(|text| desk.read(text)),
+        Rational::new(3, 2).expect("a power"),
+    );
+    let pool = &mut desk.pool;
+    let chosen = pool.select(0, x, zero);
+    let scaled = pool.mul(k, chosen);
+    let quotient = pool.div(chosen, k).expect("a quotient");
+    let cube = pool.raise(chosen, Rational::integer(3));
+    let [cubed, rooted] = [cube, scaled].map(|e| pool.sqrt(e));
+    let other = pool.select(1, zero, k);
+    let both = pool.mul(other, chosen);
+    let unlike = pool.select(0, x, k);
+    let unlike = pool.raise(unlike, power);
+    let mut powers = [chosen, scaled, quotient, both]
+        .map(|e| pool.raise(e, power))
+        .to_vec();
+    powers.extend([cubed, pool.mul(rooted, chosen)]);
+    for e in powers {
+        let e = pool.mul(e, k);
+        let raised = pool.raise_sides(&[e])[0];
+        for part in pool.iter_reachable(&[raised]) {
+            let begun = pool.begun(part);
+            assert!(begun.iter().all(|&base| pool.branches(base).is_empty()));
+        }
+        for side in [0, 1, 2, 3] {
+            let on = |branch: usize| side >> branch & 1 == 1;
+            let values = pool.evaluate(&[e, raised], &|_| 0.7, &on);
+            assert!((values[0] - values[1]).abs() < 1e-14, "{values:?}");
+        }
+    }
+    assert_eq!(pool.raise_sides(&[unlike]), [unlike]);
 }
