@@ -177,9 +177,25 @@ impl Sizes {
         unit * self.limit(f, dynamics) * sum.max(forces)
     }
 
+    /// What the cone of friction `f` changes by with forces of this size.
+    pub fn change_of_cone<T: Scalar>(f: usize, force: f64, dynamics: &Dynamics<T>) -> f64 {
+        let (unit, sum) = cone(f, dynamics);
+        unit * force * sum
+    }
+
     /// Size of the accelerations of coordinate `j`.
     pub fn of_coordinate(&self, j: usize) -> f64 {
         self.mobility[j].sqrt() * self.drive
+    }
+
+    /// Size of the forces along the rows that act, the largest of them.
+    pub fn of_forces(&self) -> f64 {
+        let known = self
+            .compliances
+            .iter()
+            .filter(|compliance| **compliance > 0.0);
+        let stiffest = known.fold(f64::INFINITY, |least, x| x.min(least));
+        self.drive / stiffest.sqrt()
     }
 
     /// Size of the accelerations along a row.

@@ -137,6 +137,7 @@ impl<T: Scalar> Run<T> {
             .polynomials
             .held
             .clone_from(&self.switcher.decider.decision.held);
+        self.locator.polynomials.forces = self.switcher.decider.size_of_forces();
         let redundant = &mut self.switcher.redundant;
         let composites = &self.switcher.decider.decision.composites;
         redundant.take_signs_of(composites, self.dynamics.description());

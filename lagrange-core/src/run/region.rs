@@ -93,16 +93,18 @@ impl<T: Scalar> Run<T> {
 
     /// Whether a guard is an edge that the motion is at over the whole step, as far as rounding tells: as what has come to rest there, or moves along it.
     pub(super) fn stays_at_edge(&self, guard: Guard, curve: &[f64]) -> bool {
+        if !matches!(guard, Guard::Region(_)) {
+            return false;
+        }
         // Coefficients of an interpolation may be large and cancel.
         let mut sizes = (0..=PLACES).map(|k| value(curve, k as f64 / PLACES as f64).abs());
         let polynomials = &self.locator.polynomials;
         let resolved = rounding::<T>(OF_STEP) * self.stepper.step.extent();
-        let vanishes = |size| {
+        sizes.all(|size| {
             size <= polynomials
                 .rounding(size, guard, &self.dynamics)
                 .max(resolved)
-        };
-        matches!(guard, Guard::Region(_)) && sizes.all(vanishes)
+        })
     }
 
     /// Where the motion enters the region of an open contact whose gap vanishes there: (part of the step, half width). It hits what is there already.

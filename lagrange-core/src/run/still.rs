@@ -100,10 +100,15 @@ impl<T: Scalar> Run<T> {
     /// A term of a stop or of a mark at part `s` of the step.
     fn term_at(&self, term: Guard, s: f64) -> f64 {
         let curves = &self.locator.polynomials;
-        match term {
-            Guard::Stop(i, k) => polynomial_value(curves.stop_term(i, k), s),
-            Guard::Mark(i, k) => polynomial_value(curves.mark_term(i, k), s),
-            _ => f64::NAN,
+        let (curve, at_end) = match term {
+            Guard::Stop(i, k) => (curves.stop_term(i, k), curves.stop_end(i, k)),
+            Guard::Mark(i, k) => (curves.mark_term(i, k), curves.mark_end(i, k)),
+            _ => return f64::NAN,
+        };
+        if s == 1.0 {
+            at_end
+        } else {
+            polynomial_value(curve, s)
         }
     }
 

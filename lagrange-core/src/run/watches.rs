@@ -207,7 +207,7 @@ impl<T: Scalar> Run<T> {
                 }
                 Continue(())
             });
-            if slope(curve, 1.0) > 0.0 && self.passes_last(end, curve, at_end, latest) {
+            if self.passes_last(end, curve, at_end, latest) && slope(curve, 1.0) > 0.0 {
                 consider(1.0);
             }
         }

@@ -12,6 +12,7 @@ use crate::modes::facts::{EvaluationPoint, SwitchContext, SwitchFacts};
 use crate::modes::guard::{self, Guard};
 use crate::modes::held::conditions;
 use crate::modes::reading::Reading;
+use crate::modes::scale::Sizes;
 use crate::modes::table::Table;
 use crate::system::{Description, ValueRef};
 
@@ -434,6 +435,7 @@ impl<T: Scalar> Decider<T> {
                 let sizes = rows.map(|row| dynamics.size_of_row(row, speed));
                 Some(NOTHING * sizes.fold(0.0, f64::max))
             }
+            Guard::StickCone(f) => Some(Sizes::change_of_cone(f, no_force, dynamics)),
             guard => guard.is_single_force().then_some(no_force),
         };
         let Self {

@@ -442,6 +442,11 @@ impl<T: Scalar> Decider<T> {
         self.sized = true;
     }
 
+    /// The size of the forces of the mode that was looked at last where they do not cancel, the largest of all rows that act.
+    pub fn size_of_forces(&self) -> f64 {
+        self.sizes.of_forces()
+    }
+
     /// The size of accelerations where forces do not cancel, the largest of all coordinates; `dynamics` holds the numbers of all rows at the present state.
     pub fn size_of_accelerations(&mut self, dynamics: &Dynamics<T>) -> f64 {
         self.take_sizes(dynamics);

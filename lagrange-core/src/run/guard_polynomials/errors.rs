@@ -219,7 +219,7 @@ impl GuardPolynomials {
 
     /// What rounding makes of a guard at the last value of `dynamics`, to be told from an `error`. Gaps and slips are differences of positions and of
     /// velocities, which may be large: those of two satellites on a rope, from the centre of the Earth. What is watched, and where branches change, may be
-    /// made of all of them.
+    /// made of all of them. A force is off by rounding of all forces, a cone of their squares: those on a grain of dust are no more than 1e-12 N.
     #[inline]
     pub(in crate::run) fn rounding<T: Scalar>(
         &self,
@@ -228,7 +228,7 @@ impl GuardPolynomials {
         dynamics: &Dynamics<T>,
     ) -> f64 {
         let least = arithmetic::rounding::<T>(ROUNDING);
-        if error <= least {
+        if error <= least && !guard.is_single_force() {
             return least;
         }
         let state = dynamics.time_and_state();
@@ -238,10 +238,24 @@ impl GuardPolynomials {
             Guard::Slip(_) => (&state[1 + n..], 1.0),
             Guard::Region(_) => (&state[1..=n], 1.0),
             Guard::Stop(..) | Guard::Mark(..) | Guard::Branch(_) => (state, 1.0),
+            Guard::StickCone(_) => {
+                let force = self.largest_force(dynamics);
+                return (least * force * force).max(f64::MIN_POSITIVE);
+            }
+            force if force.is_single_force() => {
+                return (least * self.largest_force(dynamics)).max(f64::MIN_POSITIVE);
+            }
             _ => return least,
         };
         let larger = |size: f64, x: &T| size.max(x.value().abs());
         least * terms.iter().fold(extent, larger)
+    }
+
+    /// The largest of the forces of all rows at the last value of `dynamics` and of those that the forces of the mode were made of as it began.
+    fn largest_force<T: Scalar>(&self, dynamics: &Dynamics<T>) -> f64 {
+        let rows = 0..dynamics.description().rows.len();
+        let forces = rows.map(|row| dynamics.force(row).value().abs());
+        forces.fold(self.forces, f64::max)
     }
 }
 

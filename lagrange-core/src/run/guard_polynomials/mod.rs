@@ -59,6 +59,8 @@ pub(super) struct GuardPolynomials {
     length: f64,
     /// Per contact: what its gap changes by when the coordinates change by their sizes, and 1 at least.
     pub(super) extents: Vec<f64>,
+    /// What the forces of the mode were made of as it began.
+    pub(super) forces: f64,
     /// The stops and marks that take part.
     pub(super) stops: Vec<usize>,
     pub(super) marks: Vec<usize>,
