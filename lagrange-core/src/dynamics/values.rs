@@ -204,6 +204,7 @@ impl<T: Scalar> Dynamics<T> {
                 .right_sides_at(&others)
                 .split_off(pattern.free())
         });
+        let refined = refined || !solver.is_direct();
         if outcome.is_ok() && refined && pattern.size() > pattern.free() {
             solver.refine(solution, &mut right[..pattern.size()]);
         }

@@ -126,6 +126,12 @@ impl<T: Scalar> Solver<T> {
         *taken = taken.max(size);
     }
 
+    /// Whether the factors are those that no scale and no choice of pivots was needed for: what rounding leaves of a solution is small beside the terms of each
+    /// equation then.
+    pub(crate) fn is_direct(&self) -> bool {
+        self.factors == Factors::Direct
+    }
+
     /// Whether a row was set aside.
     pub(crate) fn has_rows_aside(&self) -> bool {
         self.aside.contains(&true)

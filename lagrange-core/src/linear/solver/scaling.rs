@@ -97,26 +97,27 @@ impl<T: Scalar> Solver<T> {
     }
 
     /// Finds the coordinates from which a row gets nearly all of its compliance Σ aₖ²/mₖ: scaled by such an inertia the others would
-    /// vanish beside it.
+    /// vanish beside it. The others may vanish by themselves, as a crank does in its dead centre: they count with the longest arm that any row gives them.
     fn find_light(&mut self) {
         let (n, size) = (self.coordinates, self.size);
         self.light.clear();
         self.light.resize(n, false);
-        for row in self.matrix[n * size..].chunks_exact(size.max(1)) {
-            let compliances = row[..n].iter().enumerate().filter(|(_, a)| !a.is_zero());
-            let compliances = compliances.map(|(k, a)| {
-                let inertia = self.matrix[k * size + k].value().abs();
-                (k, a.value() * a.value() / inertia)
-            });
+        let element = |i: usize, k: usize| self.matrix[i * size + k].value().abs();
+        let arm = |k: usize| (n..size).map(|row| element(row, k)).fold(0.0, f64::max);
+        for row in n..size {
+            let moved = (0..n).filter(|&k| element(row, k) > 0.0);
+            let compliance = |k: usize, arm: f64| arm * arm / element(k, k);
             let (mut most, mut of) = (0.0, n);
-            for (k, compliance) in compliances.clone() {
+            for k in moved.clone() {
+                let compliance = compliance(k, element(row, k));
                 if compliance > most {
                     (most, of) = (compliance, k);
                 }
             }
-            let others = compliances.filter(|&(k, _)| k != of);
-            let others: f64 = others.map(|(_, compliance)| compliance).sum();
-            if others > 0.0 && most > LIGHT * others {
+            let others = moved.filter(|&k| k != of);
+            let near: f64 = others.clone().map(|k| compliance(k, element(row, k))).sum();
+            let is_most = |others: f64| others > 0.0 && most > LIGHT * others;
+            if is_most(near) && is_most(others.map(|k| compliance(k, arm(k))).sum()) {
                 self.light[of] = true;
             }
         }
