@@ -311,7 +311,8 @@ impl<T: Scalar> Run<T> {
         let hit = self.first_hit();
         let distance = self.distance_at(hit.end());
         let near = distance < self.least_distance();
-        if hit.end() == 0.0 || self.misses_a_mark(hit.end()) {
+        if hit.end() == 0.0 || self.misses_a_mark(hit.end()) || !self.keeps_bounds_until(hit.end())
+        {
             return Ok(None);
         }
         self.look_at_end(hit.end());

@@ -290,6 +290,20 @@ impl<T: Scalar> Run<T> {
         keeps && clear
     }
 
+    /// Whether undetermined forces keep all bounds up to part `end` of the step, wherever in it there are forces: what locates where they cease to does not know
+    /// of a leap. `dynamics` holds other values afterwards.
+    pub(super) fn keeps_bounds_until(&mut self, end: f64) -> bool {
+        const PLACES: u32 = 16;
+        let mut parts = (1..=PLACES).map(|place| end * f64::from(place) / f64::from(PLACES));
+        !self.switcher.redundant.has_open()
+            || parts.all(|part| {
+                self.evaluate_end(part).is_err() || {
+                    self.switcher.redundant.follow(&mut self.dynamics);
+                    self.switcher.redundant.critical(-ROOT).is_none()
+                }
+            })
+    }
+
     /// Locates where between these parts of the step forces cease to keep all bounds, and adds the composite guard that says so; `dynamics` and
     /// `scratch` end at part `end` again. Not found: they do not keep them at the first part either.
     fn locates_a_joint(&mut self, [mut before, mut after]: [f64; 2], end: f64) -> bool {
