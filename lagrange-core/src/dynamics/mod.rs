@@ -39,6 +39,7 @@ pub(crate) use slip_direction::{approach, cross, dot};
 use crate::arithmetic::Scalar;
 use crate::effects::{Effects, Item};
 use crate::equations::Turn;
+use crate::integrate::least_size;
 use crate::linear::{SolveError, Solver};
 use crate::mode::Mode;
 use crate::system::Erased;
@@ -61,7 +62,7 @@ pub enum Equations {
 /// Modes kept ready; beyond that the oldest goes.
 const MOST_MODES: usize = 64;
 
-/// A velocity below it counts as much: one that is zero is so only to rounding of its unit, as projections leave it.
+/// [`Dynamics::at_rest`] in units of what is asked for.
 pub(crate) const AT_REST: f64 = 1e-2;
 
 /// Work done so far.
@@ -136,6 +137,8 @@ pub struct Dynamics<T: Scalar> {
     slip_directions: slip_direction::SlipDirections<T>,
     /// Directions of forces that press frictions together.
     resultants: resultant::Resultants<T>,
+    /// Per coordinate: the size below which it is rounded as if it had that; empty: 1 for all.
+    sizes: Vec<f64>,
     projector: Solver<T>,
     projection: projection::Scratch<T>,
     /// Columns of a Jacobian, for a stepper that wants rows.
@@ -184,12 +187,23 @@ impl<T: Scalar> Dynamics<T> {
             solution: Vec::with_capacity(n + rows),
             slip_directions: slip_direction::SlipDirections::new(d.frictions.len()),
             resultants: resultant::Resultants::new(d.resultants.len()),
+            sizes: Vec::new(),
             projector,
             projection: projection::Scratch::new(n, rows),
             columns: Vec::new(),
             lanes: Vec::new(),
             work: Work::default(),
         }
+    }
+
+    /// A velocity of coordinate `j` below this counts as much: one that is zero is so only to rounding of its unit, as projections leave it.
+    pub(crate) fn at_rest(&self, j: usize) -> f64 {
+        AT_REST * least_size(&self.sizes, j)
+    }
+
+    /// Has constraints kept to rounding of positions and velocities of these sizes, or of 1: per coordinate, or empty.
+    pub(crate) fn set_sizes(&mut self, sizes: &[f64]) {
+        self.sizes = sizes.to_vec();
     }
 
     /// The table of names, places and needs.

@@ -12,6 +12,7 @@ use super::emitted::{Emitted, is_finite};
 use super::error::Level;
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::{Scalar, epsilon};
+use crate::integrate::least_size;
 use crate::linear::{Inertia, Shares};
 use crate::system::{Row, ValueRef};
 
@@ -156,12 +157,12 @@ impl<T: Scalar> Dynamics<T> {
             {
                 if let Some(position) = row.position {
                     let excess = self.motion(position) / self.motion(factor);
-                    if excess.value().abs() <= threshold * q[j].value().abs().max(1.0) {
+                    if excess.value().abs() <= threshold * self.size_of(j, q) {
                         q[j] -= excess;
                     }
                 }
                 let excess = self.motion(row.velocity) / self.motion(factor);
-                if excess.value().abs() <= threshold * v[j].value().abs().max(1.0) {
+                if excess.value().abs() <= threshold * self.size_of(j, v) {
                     v[j] -= excess;
                 }
             }
@@ -339,6 +340,11 @@ impl<T: Scalar> Dynamics<T> {
         }
     }
 
+    /// The size of which coordinate `j` is rounded in a state, its positions or its velocities.
+    fn size_of(&self, j: usize, state: &[T]) -> f64 {
+        state[j].value().abs().max(least_size(&self.sizes, j))
+    }
+
     fn residual(&self, level: Level, state: &[T]) -> Residual {
         let mut worst = Residual::default();
         for &row in self.acting_rows() {
@@ -348,9 +354,7 @@ impl<T: Scalar> Dynamics<T> {
             let value = self.motion(place).value();
             let sizes = self.description().rows[row].jacobian.iter();
             let size = sizes
-                .map(|&(j, place)| {
-                    self.motion(place).value().abs() * state[j].value().abs().max(1.0)
-                })
+                .map(|&(j, place)| self.motion(place).value().abs() * self.size_of(j, state))
                 .fold(0.0, f64::max);
             let relative = if value == 0.0 {
                 0.0

@@ -177,8 +177,10 @@ impl<T: Scalar> Run<T> {
         let mode = Mode::open(d);
         let acting = acting(&system, &settings.effects);
         let rank = RankWatch::new(d, &settings.effects);
+        let mut dynamics = Dynamics::of(system.clone(), &settings.effects);
+        dynamics.set_sizes(&settings.sizes);
         let mut run = Run {
-            dynamics: Dynamics::of(system.clone(), &settings.effects),
+            dynamics,
             stepper: Stepper::new(settings, d, &state),
             hidden: Hidden::new(&system, &acting),
             strengths_vary: domain::strengths_vary(d),

@@ -4,7 +4,6 @@ use super::Run;
 use super::spatial_slip::ERRORS;
 use super::touching::ROUNDING;
 use crate::arithmetic::{Scalar, rounding};
-use crate::dynamics::AT_REST;
 use crate::error::Error;
 use crate::mode::{Direction, FrictionMode};
 use crate::modes::facts::SwitchFacts;
@@ -245,7 +244,7 @@ impl<T: Scalar> Run<T> {
     /// 1e-16 of the unit, as projections leave it.
     pub(super) fn rate(&self, row: usize) -> (f64, f64) {
         let rate = self.description().rows[row].velocity;
-        let size = |j: usize| self.now.state.v[j].value().abs() + AT_REST;
+        let size = |j: usize| self.now.state.v[j].value().abs() + self.dynamics.at_rest(j);
         let size = self.dynamics.size_of_row(row, size);
         (self.dynamics.motion(rate).value(), size)
     }

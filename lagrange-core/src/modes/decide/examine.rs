@@ -4,7 +4,7 @@ use super::Decider;
 use super::just_after::{AHEAD, terms, unclear_part};
 use super::questions::{blame, concerns, leading, list_questions};
 use crate::arithmetic::Scalar;
-use crate::dynamics::{AT_REST, Dynamics, EvaluationError, OutputMask};
+use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
 use crate::integrate::horner;
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::composite::CompositeGuard;
@@ -327,7 +327,7 @@ impl<T: Scalar> Decider<T> {
             let speeds = row.jacobian.iter();
             let speeds = speeds.map(|&(j, place)| {
                 // A velocity that is zero is so only to rounding of the unit.
-                let rest = f64::EPSILON * AT_REST;
+                let rest = f64::EPSILON * dynamics.at_rest(j);
                 size(place) * (APART * largest(dynamics.velocity_series(j)) + rest)
             });
             let pushed = (self.sizes.acceleration(index, dynamics) + pushed) * h;
@@ -424,7 +424,7 @@ impl<T: Scalar> Decider<T> {
         let exactly = here.moment.tolerance == 0.0;
         // A force that was located as zero has nothing that it could be compared with.
         let all_vanish = RESIDUES * facts.residue >= 1.0;
-        let speed = |j: usize| here.moment.v[j].value().abs() + AT_REST;
+        let speed = |j: usize| here.moment.v[j].value().abs() + dynamics.at_rest(j);
         let speeds = (0..here.moment.v.len()).map(speed);
         let no_force = NOTHING * self.sizes.momentum(speeds);
         let d = dynamics.description();

@@ -5,7 +5,7 @@ use super::bearing::Bearing;
 use super::collision::{Collision, ContactRow, FrictionRow, NormalSource};
 use super::pattern::ROUNDING;
 use crate::arithmetic::{Scalar, rounding};
-use crate::dynamics::{AT_REST, Dynamics};
+use crate::dynamics::Dynamics;
 use crate::effects::Item;
 use crate::linear::{Equilibrated, Rank, least_norm};
 use crate::mode::FrictionMode;
@@ -79,8 +79,9 @@ impl<T: Scalar> Gathering<T> {
             }
             out.rates
                 .push(if self.at_rest[i] { T::zero() } else { rate });
-            let terms = a.iter().zip(v);
-            let terms = terms.map(|(a, v)| a.value().abs() * (v.value().abs() + AT_REST));
+            let terms = a.iter().zip(v).enumerate();
+            let terms =
+                terms.map(|(j, (a, v))| a.value().abs() * (v.value().abs() + dynamics.at_rest(j)));
             out.terms.push(terms.sum());
         }
         for i in 0..out.size {
