@@ -48,6 +48,13 @@ impl Tolerance<'_> {
     }
 }
 
+/// A first step where nothing moves that could tell its length, s: short, but late times are rounded to no shorter ones.
+pub(super) fn least_first_step(time: f64) -> f64 {
+    const SHORT: f64 = 1e-6;
+    const UNITS: f64 = 1e4;
+    SHORT.max(UNITS * f64::EPSILON * time.abs())
+}
+
 /// The size above which errors of a coordinate are relative.
 pub(crate) fn least_size(sizes: &[f64], coordinate: usize) -> f64 {
     sizes.get(coordinate).copied().unwrap_or(1.0)

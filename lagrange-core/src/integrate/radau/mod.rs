@@ -14,7 +14,7 @@
 mod estimate;
 mod stages;
 
-use super::control::{Tolerance, error_norm};
+use super::control::{Tolerance, error_norm, least_first_step};
 use super::factors::Factors;
 use super::{Acceleration, Accepted, Start, StepError, StepPolynomial};
 use crate::arithmetic::Scalar;
@@ -163,7 +163,7 @@ impl<T: Scalar> Radau<T> {
         let size = norm(q, q).max(norm(v, v));
         let rate = norm(v, q).max(norm(a, v));
         let h = if size < 1e-5 || rate < 1e-5 {
-            1e-6
+            least_first_step(t.value())
         } else {
             0.01 * size / rate
         };

@@ -5,7 +5,7 @@
 
 mod dense;
 
-use super::control::{Controller, Tolerance, error_norm, fixed_length};
+use super::control::{Controller, Tolerance, error_norm, fixed_length, least_first_step};
 use super::tableau::{Estimate, Tableau, Weights};
 use super::{Acceleration, Accepted, Method, Start, StepError, StepPolynomial, hermite};
 use super::{dop853, dopri5, rk4, verner98};
@@ -118,7 +118,7 @@ impl<T: Scalar> RungeKutta<T> {
         let slope = &self.k[..self.width];
         let (d0, d1) = (norm(y, y), norm(slope, y));
         let euler = if d0 < 1e-5 || d1 < 1e-5 {
-            1e-6
+            least_first_step(from.t.value())
         } else {
             0.01 * d0 / d1
         };
@@ -144,7 +144,7 @@ impl<T: Scalar> RungeKutta<T> {
                 tolerance,
             ) / euler;
             let curve = if d1.max(d2) <= 1e-15 {
-                (euler * 1e-3).max(1e-6)
+                (euler * 1e-3).max(least_first_step(from.t.value()))
             } else {
                 (0.01 / d1.max(d2)).powf(1.0 / self.tableau.order as f64)
             };

@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{TOLERANCES, agree};
+use lagrange_tests::{METHODS, TOLERANCES, agree};
 
 /// A mass whose push begins like t³⁶: up to the largest order the series at t = 0 is that of a mass left alone.
 #[derive(Lagrangian, Clone, Debug)]
@@ -118,6 +118,88 @@ fn bounces_die_out_at_any_time() {
                 certificate.holds(),
                 "{ball:?} from {start:e}: {certificate}"
             );
+        }
+    }
+}
+
+/// A ball that spins and bounces on a rough floor.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, turn),
+    kinetic = mass/2*(der(x)^2 + der(y)^2) + mass*radius^2/5*der(turn)^2,
+    potential = mass*gravity*y,
+    contact(floor: y >= radius, restitution = bounce),
+    friction(grip on floor: slip = der(x) - radius*der(turn), static = mu),
+    start(dropped: y = radius + height, der(turn) = spin),
+)]
+struct Spinning {
+    mass: f64,
+    radius: f64,
+    gravity: f64,
+    height: f64,
+    bounce: f64,
+    mu: f64,
+    spin: f64,
+}
+
+/// At 1.7e9 s, the time of a clock, an impact is known to 2e-7 s, and the motion goes on as it does at 0 s all the same.
+#[test]
+fn impacts_at_late_times_take_nothing_from_the_motion() {
+    for (height, spin) in [(0.6, 40.0), (0.9, 120.0), (1.3, 5.0)] {
+        let ball = Spinning {
+            mass: 0.1,
+            radius: 0.03,
+            gravity: 9.81,
+            height,
+            bounce: 0.6,
+            mu: 0.1,
+            spin,
+        };
+        let run = |from: f64| {
+            let simulation = Simulation::new(&ball).tolerance(1e-12);
+            simulation.run(ball.at(Spinning::DROPPED), from..from + 1.5)
+        };
+        let early = run(0.0).expect("a run");
+        for late in [1e5, 1e7, 1.7e9] {
+            let motion = run(late).expect("a run");
+            let (end, other) = (motion.final_state(), early.final_state());
+            for (x, y) in end.q.iter().zip(&other.q).chain(end.v.iter().zip(&other.v)) {
+                agree(late, *x, *y, 1e-10);
+            }
+        }
+    }
+}
+
+/// A box that slides on a rough floor.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = mass/2*der(x)^2,
+    friction(rub: slip = der(x), static = mu, kinetic = mu, normal = 9.81*mass),
+    start(pushed: der(x) = speed),
+)]
+struct Sliding {
+    mass: f64,
+    mu: f64,
+    speed: f64,
+}
+
+/// Steps that begin at rest are short, but no shorter than late times are told apart.
+#[test]
+fn what_comes_to_rest_late_stays_by_every_method() {
+    let sliding = Sliding {
+        mass: 2.0,
+        mu: 0.3,
+        speed: 1.4,
+    };
+    let way = 1.4 * 1.4 / (2.0 * 0.3 * 9.81);
+    for method in METHODS {
+        for late in [0.0, 3e8, 1.7e9, 1e10] {
+            let simulation = Simulation::new(&sliding).method(method);
+            let run = simulation.run(sliding.at(Sliding::PUSHED), late..late + 3.0);
+            let run = run.expect("a run");
+            agree(method, run.final_state().q[0], way, 1e-7);
+            agree(method, run.final_state().v[0], 0.0, 1e-12);
         }
     }
 }
