@@ -96,6 +96,8 @@ pub struct FromFile {
     pub until: Option<f64>,
     /// Parameters, coordinates and items by name, each with its line and column, from 1.
     pub places: Vec<(String, usize, usize)>,
+    /// Remarks on what is not wrong, each with its line and column.
+    pub hints: Vec<(String, usize, usize)>,
     /// The struct with its `#[lagrange(…)]` that declares the same; [`inspect()`] and [`readable`] read it.
     pub declaration: String,
     /// A Rust file with that struct, its derive and its default values; none where names would become one constant there.
@@ -144,7 +146,12 @@ fn from_file(text: &str, name: &str, sink: &mut Diagnostics) -> Option<FromFile>
     });
     let mut clashes = Diagnostics::new();
     emit::clashes(&file.declaration, &mut clashes);
+    let hints = program.equations.system.hints.iter().map(|hint| {
+        let start = hint.extent.start.start();
+        (hint.text.clone(), start.line, start.column + 1)
+    });
     Some(FromFile {
+        hints: hints.collect(),
         tables: emit::tables(&program, &model::declared(&file.declaration)),
         declaration: emit::declared_struct(&file, text),
         rust: match clashes.is_empty() {

@@ -34,6 +34,9 @@ pub trait Scene: Sync {
     /// Named results: what they are called, and the observation that they stand for.
     fn results(&self) -> &'static [(&'static str, &'static str)];
 
+    /// Remarks on what is declared in a file and is not wrong, each with its place.
+    fn hints(&self) -> &'static [String];
+
     /// Where a parameter, coordinate or item of this name stands, `ball.lagrange:6:9`; nothing where that is not a file.
     fn place(&self, name: &str) -> Option<&str>;
 }
@@ -47,6 +50,7 @@ pub struct Entry<S: 'static> {
     results: &'static [(&'static str, &'static str)],
     /// Names with their places.
     places: &'static [(String, String)],
+    hints: &'static [String],
 }
 
 /// The system with its default parameters.
@@ -82,6 +86,7 @@ impl<S> Entry<S> {
             closed_form: None,
             results: &[],
             places: &[],
+            hints: &[],
         }
     }
 
@@ -93,6 +98,11 @@ impl<S> Entry<S> {
     /// The same with the places at which names stand in a file.
     pub(crate) const fn places(self, places: &'static [(String, String)]) -> Self {
         Self { places, ..self }
+    }
+
+    /// The same with remarks on its declaration in a file.
+    pub(crate) const fn hints(self, hints: &'static [String]) -> Self {
+        Self { hints, ..self }
     }
 
     /// The same with a closed form, for `lagrange accuracy` to measure errors against.
@@ -142,6 +152,10 @@ impl<S: System<Scalar = f64>> Scene for Entry<S> {
 
     fn results(&self) -> &'static [(&'static str, &'static str)] {
         self.results
+    }
+
+    fn hints(&self) -> &'static [String] {
+        self.hints
     }
 
     fn place(&self, name: &str) -> Option<&str> {

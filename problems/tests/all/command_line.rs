@@ -447,6 +447,22 @@ fn events_beyond_their_limit_end_a_run() {
 }
 
 #[test]
+fn a_run_says_what_its_declaration_makes_one_wonder_about() {
+    let file = folder("hints").join("fed.lagrange");
+    let declared = "coordinates(x), kinetic = der(x)^2/2,\ndissipation(damper: -der(x)^2), start(thrown: der(x) = 1),";
+    fs::write(&file, declared).expect("a file");
+    let output = lagrange(&["run", path(&file)]);
+    assert!(output.status.success());
+    let said = text(&output.stderr);
+    assert!(
+        said.contains("fed.lagrange:2:13: `damper` gives energy"),
+        "{said}"
+    );
+    let output = lagrange(&["run", path(&file), "--quiet"]);
+    assert_eq!(text(&output.stderr), "");
+}
+
+#[test]
 fn a_run_that_fails_at_its_start_prints_only_why() {
     // Above μ = 4/3 a rod that slides has no answer at some angles (Painlevé).
     for command in ["run", "verify"] {

@@ -3,7 +3,7 @@
 use super::compare::Comparison;
 use super::output::{self, draw, ready, to_file};
 use super::run_args::RunArgs;
-use super::terminal::{keep_what_is_done, patiently};
+use super::terminal::{keep_what_is_done, patiently, remark};
 use super::values::{self, number_of, picture};
 use super::watch::watched;
 use super::{Trouble, went_well};
@@ -90,6 +90,7 @@ impl Run {
     fn once(&self, catalogue: &Catalogue) -> Result<(), Trouble> {
         let file = self.run.of(&self.scene, catalogue)?;
         let scene = file.scene;
+        remark(scene);
         let outputs = self.results.or(file.outputs);
         let destinations = destinations(&outputs)?;
         let files = destinations.iter().filter_map(|(_, path)| path.as_deref());

@@ -2,6 +2,7 @@
 //! first Ctrl-C that keeps what is done and the second that does not.
 
 use crate::progress::Progress;
+use crate::scene::Scene;
 use clap::ColorChoice;
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
@@ -45,6 +46,14 @@ pub(super) fn bar(length: u64, form: &str) -> ProgressBar {
     match ProgressStyle::with_template(form) {
         Ok(style) => bar.with_style(style),
         Err(_) => bar,
+    }
+}
+
+/// Says what the declaration of a scene in a file makes one wonder about.
+pub(super) fn remark(scene: &dyn Scene) {
+    if !QUIET.load(Relaxed) {
+        let hints = scene.hints().iter();
+        hints.for_each(|hint| super::say(&format!("hint: {hint}")));
     }
 }
 

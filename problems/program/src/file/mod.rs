@@ -98,8 +98,11 @@ pub fn scene(path: &str, text: &str) -> Result<&'static dyn Scene, Refused> {
     let name = path.to_owned().leak();
     let places = found.places.into_iter();
     let places = places.map(|(name, line, column)| (name, format!("{path}:{line}:{column}")));
+    let hints = found.hints.into_iter();
+    let hints = hints.map(|(text, line, column)| format!("{path}:{line}:{column}: {text}"));
     let entry = Entry::kept(name, found.until.unwrap_or(UNTIL), system)
-        .places(Box::leak(places.collect::<Box<[_]>>()));
+        .places(Box::leak(places.collect::<Box<[_]>>()))
+        .hints(Box::leak(hints.collect::<Box<[_]>>()));
     Ok(Box::leak(Box::new(entry)))
 }
 
