@@ -177,10 +177,15 @@ impl Sizes {
         unit * self.limit(f, dynamics) * sum.max(forces)
     }
 
-    /// What the cone of friction `f` changes by with forces of this size.
-    pub fn change_of_cone<T: Scalar>(f: usize, force: f64, dynamics: &Dynamics<T>) -> f64 {
+    /// What the cone of friction `f` changes by with forces of this size, beside those that there are, or of `least` where these vanish.
+    pub fn change_of_cone<T: Scalar>(
+        f: usize,
+        force: f64,
+        least: f64,
+        dynamics: &Dynamics<T>,
+    ) -> f64 {
         let (unit, sum) = cone(f, dynamics);
-        unit * force * sum
+        unit * force * sum.max(unit * least)
     }
 
     /// Size of the accelerations of coordinate `j`.

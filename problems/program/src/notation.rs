@@ -51,3 +51,12 @@ pub(crate) fn symbol(name: &str) -> String {
         None => name.to_owned(),
     }
 }
+
+/// Of a force's impulse, `N s`.
+pub(crate) fn impulse_unit(force: &str) -> String {
+    match force {
+        "" => String::new(),
+        unit if unit.contains('/') => format!("({unit}) s"),
+        unit => format!("{unit} s"),
+    }
+}

@@ -251,11 +251,12 @@ impl GuardPolynomials {
         least * terms.iter().fold(extent, larger)
     }
 
-    /// The largest of the forces of all rows at the last value of `dynamics` and of those that the forces of the mode were made of as it began.
+    /// The largest of the forces of all rows at the last value of `dynamics` and of those that the forces of the mode were made of as it began; no more than 1: of
+    /// larger ones polynomials are as exact as they can be, and roots are sharpened by it.
     fn largest_force<T: Scalar>(&self, dynamics: &Dynamics<T>) -> f64 {
         let rows = 0..dynamics.description().rows.len();
         let forces = rows.map(|row| dynamics.force(row).value().abs());
-        forces.fold(self.forces, f64::max)
+        forces.fold(self.forces, f64::max).min(1.0)
     }
 }
 

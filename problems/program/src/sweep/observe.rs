@@ -11,10 +11,9 @@
 
 use super::modes::Switches;
 use super::unit;
-use crate::notation::velocity_name;
+use crate::notation::{impulse_unit, velocity_name};
 use crate::outcome::rounding::impulse;
 use crate::outcome::{Force, forces};
-use crate::report::table::impulse_unit;
 use crate::request::event::event;
 use crate::request::{Quantity, Refusal, find_state};
 use crate::scene::Scene;

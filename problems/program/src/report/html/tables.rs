@@ -1,10 +1,10 @@
 //! What a page says in tables: events, parameters, energy and accuracy.
 
 use super::{Shown, short};
+use crate::notation::impulse_unit;
 use crate::notation::{is_angle, symbol};
 use crate::outcome::forces;
 use crate::outcome::rounding::ROUNDING;
-use crate::report::table::impulse_unit;
 use crate::report::words::brief;
 use lagrange_core::error::Shortest;
 use lagrange_core::prelude::*;

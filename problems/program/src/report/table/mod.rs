@@ -154,15 +154,6 @@ fn told_of(kind: Choice, outcome: &Outcome) -> Option<String> {
     ))
 }
 
-/// Of a force's impulse, `N s`.
-pub(crate) fn impulse_unit(force: &str) -> String {
-    match force {
-        "" => String::new(),
-        unit if unit.contains('/') => format!("({unit}) s"),
-        unit => format!("{unit} s"),
-    }
-}
-
 /// The ledger, and how many works are listed in it.
 fn energy(ledger: &Ledger, unit: &str) -> (Table, usize) {
     let (start, end) = (&ledger.start, &ledger.end);

@@ -2,7 +2,8 @@
 
 use super::decimals::{Decimals, time};
 use super::line::{Line, lines};
-use super::{impulse_unit, page};
+use super::page;
+use crate::notation::impulse_unit;
 use crate::notation::{is_angle, symbol};
 use crate::outcome::rounding::ROUNDING;
 use crate::outcome::{Force, Outcome, forces};
