@@ -147,8 +147,8 @@ fn from_file(text: &str, name: &str, sink: &mut Diagnostics) -> Option<FromFile>
     let mut clashes = Diagnostics::new();
     emit::clashes(&file.declaration, &mut clashes);
     let hints = program.equations.system.hints.iter().map(|hint| {
-        let start = hint.extent.start.start();
-        (hint.text.clone(), start.line, start.column + 1)
+        let (line, column) = hint.extent.place();
+        (hint.text.clone(), line, column)
     });
     Some(FromFile {
         hints: hints.collect(),

@@ -429,6 +429,16 @@ impl<T: Scalar> Decider<T> {
         let momentum = self.sizes.momentum(speeds);
         let no_force = NOTHING * momentum;
         let d = dynamics.description();
+        let nothing = |guard: Guard| match guard {
+            Guard::Gap(c) => Some(NOTHING * dynamics.size_of_row(d.contacts[c].row, speed)),
+            Guard::Slip(f) => {
+                let rows = d.frictions[f].rows();
+                let sizes = rows.map(|row| dynamics.size_of_row(row, speed));
+                Some(NOTHING * sizes.fold(0.0, f64::max))
+            }
+            Guard::StickCone(f) => Some(Sizes::change_of_cone(f, no_force, momentum, dynamics)),
+            guard => guard.is_single_force().then_some(no_force),
+        };
         let Self {
             sizes,
             questions,
@@ -440,16 +450,6 @@ impl<T: Scalar> Decider<T> {
             posed: mode,
             ..
         } = self;
-        let nothing = |guard: Guard| match guard {
-            Guard::Gap(c) => Some(NOTHING * dynamics.size_of_row(d.contacts[c].row, speed)),
-            Guard::Slip(f) => {
-                let rows = d.frictions[f].rows();
-                let sizes = rows.map(|row| dynamics.size_of_row(row, speed));
-                Some(NOTHING * sizes.fold(0.0, f64::max))
-            }
-            Guard::StickCone(f) => Some(Sizes::change_of_cone(f, no_force, momentum, dynamics)),
-            guard => guard.is_single_force().then_some(no_force),
-        };
         zeros.clear();
         at_limit.clear();
         doubtful.clear();

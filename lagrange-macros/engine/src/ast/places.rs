@@ -1,6 +1,7 @@
 //! Where names are declared, for messages about a run.
 
 use super::{Declaration, ItemKind, Name};
+use crate::diagnostics::Extent;
 
 impl Declaration {
     /// Fields, coordinates and the items that can be left out, each with its line and column, from 1.
@@ -14,8 +15,8 @@ impl Declaration {
             _ => Vec::from_iter(item.name()),
         });
         let place = |name: &Name| {
-            let start = name.ident.span().start();
-            (name.text.clone(), start.line, start.column + 1)
+            let (line, column) = Extent::from(name.ident.span()).place();
+            (name.text.clone(), line, column)
         };
         fields.chain(items).map(place).collect()
     }

@@ -33,6 +33,12 @@ impl Extent {
             end: last.into().end,
         }
     }
+
+    /// Line and column of its beginning, both counted from 1.
+    pub fn place(&self) -> (usize, usize) {
+        let start = self.start.start();
+        (start.line, start.column + 1)
+    }
 }
 
 impl From<Span> for Extent {
@@ -78,15 +84,8 @@ pub struct Diagnostic {
 impl Display for Diagnostic {
     /// `line:column code message; hint`, both counted from 1.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let at = self.extent.start.start();
-        write!(
-            f,
-            "{}:{} {} {}",
-            at.line,
-            at.column + 1,
-            self.code,
-            self.message
-        )?;
+        let (line, column) = self.extent.place();
+        write!(f, "{line}:{column} {} {}", self.code, self.message)?;
         if !self.hint.is_empty() {
             write!(f, "; {}", self.hint)?;
         }

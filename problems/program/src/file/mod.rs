@@ -96,10 +96,11 @@ pub fn scene(path: &str, text: &str) -> Result<&'static dyn Scene, Refused> {
         parameters: found.defaults,
     }));
     let name = path.to_owned().leak();
+    let place = |line: usize, column: usize| format!("{path}:{line}:{column}");
     let places = found.places.into_iter();
-    let places = places.map(|(name, line, column)| (name, format!("{path}:{line}:{column}")));
+    let places = places.map(|(name, line, column)| (name, place(line, column)));
     let hints = found.hints.into_iter();
-    let hints = hints.map(|(text, line, column)| format!("{path}:{line}:{column}: {text}"));
+    let hints = hints.map(|(text, line, column)| format!("{}: {text}", place(line, column)));
     let entry = Entry::kept(name, found.until.unwrap_or(UNTIL), system)
         .places(Box::leak(places.collect::<Box<[_]>>()))
         .hints(Box::leak(hints.collect::<Box<[_]>>()));

@@ -4,105 +4,70 @@ use super::{PI, state};
 use lagrange_core::prelude::*;
 use lagrange_tests::{METHODS, Random, agree, certified, integral, methods_at};
 
-/// Two balls in a row; the force is written as that of the larger of zero and the depth.
-#[derive(Lagrangian, Clone, Debug)]
-#[lagrange(
-    coordinates(x, z),
+/// Two balls in a row: their masses, the stiffness of what is between them, other parameters, and the items that say how it acts.
+macro_rules! balls {
+    ($(#[$words:meta])* $name:ident { $($other:ident)? } $($items:tt)*) => {
+        $(#[$words])*
+        #[derive(Lagrangian, Clone, Debug)]
+        #[lagrange(
+            coordinates(x, z),
+            kinetic = first/2 * der(x)^2 + second/2 * der(z)^2,
+            $($items)*
+        )]
+        struct $name {
+            first: f64,
+            second: f64,
+            stiffness: f64,
+            $($other: f64,)?
+        }
+    };
+}
+
+balls! {
+    /// Two balls in a row; the force is written as that of the larger of zero and the depth.
+    Balls { apart }
     define(depth = x - z + apart),
-    kinetic = first/2 * der(x)^2 + second/2 * der(z)^2,
     force(elastic: stiffness * max(0, depth)^(3/2) along der(z) - der(x)),
-)]
-struct Balls {
-    first: f64,
-    second: f64,
-    stiffness: f64,
-    apart: f64,
 }
 
-/// The same as a choice, with another power.
-#[derive(Lagrangian, Clone, Debug)]
-#[lagrange(
-    coordinates(x, z),
+balls! {
+    /// The same as a choice, with another power.
+    Chosen { apart }
     define(depth = x - z + apart),
-    kinetic = first/2 * der(x)^2 + second/2 * der(z)^2,
     force(elastic: if(depth >= 0, stiffness * depth^2.2, 0) along der(z) - der(x)),
-)]
-struct Chosen {
-    first: f64,
-    second: f64,
-    stiffness: f64,
-    apart: f64,
 }
 
-/// The same as a potential, with a third one.
-#[derive(Lagrangian, Clone, Debug)]
-#[lagrange(
-    coordinates(x, z),
+balls! {
+    /// The same as a potential, with a third one.
+    Stored { apart }
     define(depth = x - z + apart),
-    kinetic = first/2 * der(x)^2 + second/2 * der(z)^2,
     potential = stiffness/2.1 * max(depth, 0)^2.1,
-)]
-struct Stored {
-    first: f64,
-    second: f64,
-    stiffness: f64,
-    apart: f64,
 }
 
-/// The depth against a length, raised with it.
-#[derive(Lagrangian, Clone, Debug)]
-#[lagrange(
-    coordinates(x, z),
-    kinetic = first/2 * der(x)^2 + second/2 * der(z)^2,
+balls! {
+    /// The depth against a length, raised with it.
+    Against { unit }
     force(elastic: stiffness * (max(0, x - z + 0.3)/unit)^(3/2) along der(z) - der(x)),
-)]
-struct Against {
-    first: f64,
-    second: f64,
-    stiffness: f64,
-    unit: f64,
 }
 
-/// A condition on another multiple of the depth than the one that is raised, as a product with its root.
-#[derive(Lagrangian, Clone, Debug)]
-#[lagrange(
-    coordinates(x, z),
+balls! {
+    /// A condition on another multiple of the depth than the one that is raised, as a product with its root.
+    Ratio { apart }
     define(depth = x - z + apart),
-    kinetic = first/2 * der(x)^2 + second/2 * der(z)^2,
     force(elastic: if((z - x)/apart <= 1, stiffness * depth * sqrt(depth), 0) along der(z) - der(x)),
-)]
-struct Ratio {
-    first: f64,
-    second: f64,
-    stiffness: f64,
-    apart: f64,
 }
 
-/// A depth that is written with its size, in a potential.
-#[derive(Lagrangian, Clone, Debug)]
-#[lagrange(
-    coordinates(x, z),
+balls! {
+    /// A depth that is written with its size, in a potential.
+    Folded {}
     define(depth = x - z + 0.1),
-    kinetic = first/2 * der(x)^2 + second/2 * der(z)^2,
     potential = stiffness/2.7 * ((abs(depth) + depth)/2)^2.7,
-)]
-struct Folded {
-    first: f64,
-    second: f64,
-    stiffness: f64,
 }
 
-/// A distance that is compared with a number, whose square decides.
-#[derive(Lagrangian, Clone, Debug)]
-#[lagrange(
-    coordinates(x, z),
-    kinetic = first/2 * der(x)^2 + second/2 * der(z)^2,
+balls! {
+    /// A distance that is compared with a number, whose square decides.
+    Apart {}
     force(elastic: stiffness * max(0, 0.4 - norm([x - z, 0]))^2.5 along der(z) - der(x)),
-)]
-struct Apart {
-    first: f64,
-    second: f64,
-    stiffness: f64,
 }
 
 /// A ball on an elastic ground, with the losses of Hunt and Crossley (1975).

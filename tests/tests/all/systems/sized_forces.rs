@@ -4,55 +4,49 @@ use super::state;
 use lagrange_core::prelude::*;
 use lagrange_tests::{METHODS, Random, agree, all_agree, certified, methods_at, times};
 
-/// A sledge on a spring is shaken along its track, and pressed onto it by a load that comes and goes: its runner sticks, slips and turns back.
-#[derive(Lagrangian, Clone, Debug)]
-#[lagrange(
-    coordinates(x, y),
-    kinetic = mass/2 * (der(x)^2 + der(y)^2),
-    potential = mass * 9.81 * y + spring/2 * x^2,
-    contact(track: y >= 0),
-    friction(runner on track: slip = der(x), static = hold, kinetic = rub),
-    force(shake: x = drive * cos(beat * t)),
-    force(load: y = -press * sin(swell * t)),
+/// A sledge on a spring, its parameters and more, and the items by which it is watched.
+macro_rules! sledge {
+    ($(#[$words:meta])* $name:ident { $($other:ident)? } $($watches:tt)*) => {
+        $(#[$words])*
+        #[derive(Lagrangian, Clone, Debug)]
+        #[lagrange(
+            coordinates(x, y),
+            kinetic = mass/2 * (der(x)^2 + der(y)^2),
+            potential = mass * 9.81 * y + spring/2 * x^2,
+            contact(track: y >= 0),
+            friction(runner on track: slip = der(x), static = hold, kinetic = rub),
+            force(shake: x = drive * cos(beat * t)),
+            force(load: y = -press * sin(swell * t)),
+            $($watches)*
+        )]
+        struct $name {
+            mass: f64,
+            spring: f64,
+            hold: f64,
+            rub: f64,
+            drive: f64,
+            beat: f64,
+            press: f64,
+            swell: f64,
+            $($other: f64,)?
+        }
+    };
+}
+
+sledge! {
+    /// A sledge on a spring is shaken along its track, and pressed onto it by a load that comes and goes: its runner sticks, slips and turns back.
+    Sledge { level }
     observe(size = abs(runner)),
     mark(large: abs(runner) >= level),
     mark(rises: runner >= level),
     mark(falls: runner <= -level),
     mark(larger: max(runner, -track) - level),
     stop(never: abs(runner) <= -level/10),
-)]
-struct Sledge {
-    mass: f64,
-    spring: f64,
-    hold: f64,
-    rub: f64,
-    drive: f64,
-    beat: f64,
-    press: f64,
-    swell: f64,
-    level: f64,
 }
 
-/// The same without anything that is watched.
-#[derive(Lagrangian, Clone, Debug)]
-#[lagrange(
-    coordinates(x, y),
-    kinetic = mass/2 * (der(x)^2 + der(y)^2),
-    potential = mass * 9.81 * y + spring/2 * x^2,
-    contact(track: y >= 0),
-    friction(runner on track: slip = der(x), static = hold, kinetic = rub),
-    force(shake: x = drive * cos(beat * t)),
-    force(load: y = -press * sin(swell * t)),
-)]
-struct Unwatched {
-    mass: f64,
-    spring: f64,
-    hold: f64,
-    rub: f64,
-    drive: f64,
-    beat: f64,
-    press: f64,
-    swell: f64,
+sledge! {
+    /// The same without anything that is watched.
+    Unwatched {}
 }
 
 /// A pendulum in wind that begins to blow; how hard its rod is pulled.
