@@ -58,13 +58,13 @@ const JUMP: f64 = 1e-6;
 /// A guard that may be rounding.
 #[derive(Clone, Debug)]
 pub(super) struct Doubt {
-    guard: Guard,
+    pub(super) guard: Guard,
     /// How many of its coefficients are known to vanish.
-    order_known: usize,
+    pub(super) order_known: usize,
     /// The first that is not, times its factorial,
-    value: f64,
+    pub(super) value: f64,
     /// and what it would be if the state changed by its own size.
-    size: f64,
+    pub(super) size: f64,
 }
 
 impl<T: Scalar> Decider<T> {
@@ -205,13 +205,23 @@ impl<T: Scalar> Decider<T> {
         if self.questions.is_empty() {
             return Ok(true);
         }
-        self.shake(dynamics, moment)?;
+        if !self.doubtful.is_empty() {
+            let size = |x: &T| x.value().abs().max(1.0);
+            let sizes = [moment.q, moment.v].map(|x| x.iter().map(size).collect());
+            self.shake(dynamics, moment, &sizes, 0)?;
+        }
         let settled = self.zeros.len();
         for order in [LOW_ORDER.min(moment.order), moment.order] {
             dynamics.series(t, q, v, order)?;
             self.decision.expanded = serves && order == moment.order;
             self.press_as_forces_begin(dynamics, here, order);
-            match self.judge(dynamics, here, order) {
+            let mut goes_on = self.judge(dynamics, here, order);
+            if goes_on == Some(false) && self.doubts_branches(dynamics, here, order)? {
+                self.zeros.truncate(settled);
+                self.at_limit.clear();
+                goes_on = self.judge(dynamics, here, order);
+            }
+            match goes_on {
                 Some(true) => return self.keeps_bounds_later(dynamics, here, order),
                 Some(false) => return Ok(false),
                 None => {
@@ -501,31 +511,32 @@ impl<T: Scalar> Decider<T> {
         });
     }
 
-    /// Where nothing makes forces but what is known to rounding only, as at the lowest point of a pendulum: how large guards in doubt would be if the
-    /// state changed by its own size.
+    /// Finds how large the guards in doubt, but for the first ones, would be if positions and velocities changed by these sizes: where nothing makes forces
+    /// but what is known to rounding only, as at the lowest point of a pendulum, and of conditions.
     ///
     /// # Errors
     /// The state itself, which is what `dynamics` holds afterwards, cannot be evaluated.
-    fn shake(
+    pub(super) fn shake(
         &mut self,
         dynamics: &mut Dynamics<T>,
         moment: EvaluationPoint<'_, T>,
+        sizes: &[Vec<f64>; 2],
+        first: usize,
     ) -> Result<(), EvaluationError> {
-        if self.doubtful.is_empty() {
-            return Ok(());
-        }
+        let [positions, velocities] = sizes;
         // Of coordinates moved by cosines and sines no combination vanishes by symmetry.
         for phase in [0.0, core::f64::consts::FRAC_PI_2] {
-            let moved = |(j, x): (usize, &T)| {
+            let moved = |(j, (x, size)): (usize, (&T, &f64))| {
                 let part = SHAKE * (j as f64 - phase).cos();
-                *x + T::from_f64(part * x.value().abs().max(1.0))
+                *x + T::from_f64(part * size)
             };
-            let [q, v] = [moment.q, moment.v].map(|x| x.iter().enumerate().map(moved));
-            let [q, v]: [Vec<T>; 2] = [q.collect(), v.collect()];
+            let moved = [(moment.q, positions), (moment.v, velocities)]
+                .map(|(x, sizes)| x.iter().zip(sizes).enumerate().map(moved));
+            let [q, v]: [Vec<T>; 2] = moved.map(Iterator::collect);
             if dynamics.value(moment.t, &q, &v).is_err() {
                 continue;
             }
-            for doubt in &mut self.doubtful {
+            for doubt in &mut self.doubtful[first..] {
                 let moved = leading(doubt.guard, doubt.order_known, &[], &self.posed, dynamics);
                 let change = moved.map_or(0.0, |moved| moved - doubt.value);
                 doubt.size = doubt.size.max((change / SHAKE).abs());

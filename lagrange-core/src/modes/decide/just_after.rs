@@ -1,15 +1,16 @@
 //! What guards do just after the instant, by their series.
 
 use super::Decider;
-use super::questions::{blame, concerns, unit_of_order};
+use super::examine::Doubt;
+use super::questions::{blame, concerns, leading, unit_of_order};
 use crate::arithmetic::Scalar;
 use crate::arithmetic::products::ROW;
-use crate::dynamics::Dynamics;
+use crate::dynamics::{Dynamics, EvaluationError};
 use crate::integrate::taylor;
 use crate::integrate::{Tolerance, horner};
 use crate::mode::FrictionMode;
 use crate::modes::composite;
-use crate::modes::facts::{SwitchContext, SwitchFacts};
+use crate::modes::facts::{EvaluationPoint, SwitchContext, SwitchFacts};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
 
@@ -26,6 +27,9 @@ const ROUNDING: f64 = 1e-12;
 /// over no more than so many times the time in which those forces would move a coordinate by its unit. Series that end reach everywhere, and are looked
 /// at over that time as well, whatever the unit of time is.
 const TIMES: f64 = 10.0;
+
+/// What is less than this part of what cancels in it is rounding.
+const ROUNDED: f64 = 1e-14;
 
 /// So many composite guards at most begin at their border.
 const MOST_JOINTS: usize = 20;
@@ -84,18 +88,16 @@ impl<T: Scalar> Decider<T> {
         if time.is_finite() { time } else { 1.0 }
     }
 
-    /// Looks at the guards in question just after the moment. `None`: one of them vanishes to this order, and more is to
-    /// be had.
-    pub(super) fn judge(
-        &mut self,
-        dynamics: &Dynamics<T>,
-        here: SwitchContext<'_, T>,
+    /// What the series of this order tell.
+    fn ahead<'a>(
+        &self,
+        dynamics: &'a Dynamics<T>,
+        here: SwitchContext<'a, T>,
         order: usize,
-    ) -> Option<bool> {
+    ) -> Ahead<'a, T> {
         let SwitchContext { moment, facts, .. } = here;
-        let last = order == moment.order;
         // A low order's last coefficient is small enough at the same step for a loose tolerance only.
-        let allowed = if last {
+        let allowed = if order == moment.order {
             moment.tolerance.max(f64::EPSILON)
         } else {
             1e-3
@@ -104,13 +106,70 @@ impl<T: Scalar> Decider<T> {
         let h = self
             .reach(dynamics, order, allowed)
             .min(self.directions_last(dynamics, facts));
-        let ahead = Ahead {
+        Ahead {
             dynamics,
             here,
             order,
             h,
             allowed,
-        };
+        }
+    }
+
+    /// Whether nothing but conditions forbids the candidate, of which some have no size yet: what refuses it may be rounding, as where two bodies fall
+    /// side by side. These are in doubt then, with their sizes as the state changes by what it goes through ahead, and `dynamics` holds the
+    /// series as before.
+    ///
+    /// # Errors
+    /// The state cannot be evaluated.
+    pub(super) fn doubts_branches(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        here: SwitchContext<'_, T>,
+        order: usize,
+    ) -> Result<bool, EvaluationError> {
+        let is_branch = |guard: &Guard| matches!(guard, Guard::Branch(_));
+        let is_doubtful = |guard: &Guard| self.doubtful.iter().any(|doubt| doubt.guard == *guard);
+        let violated = &self.violated;
+        if !violated.iter().all(is_branch) || violated.iter().all(is_doubtful) {
+            return Ok(false);
+        }
+        let h = self.ahead(dynamics, here, order).h;
+        let size = |series: &[T]| terms(series[..=order].iter().map(|c| c.value()), h).sum();
+        let coordinates = 0..dynamics.acceleration().len();
+        let sizes = [Dynamics::position_series, Dynamics::velocity_series].map(|series| {
+            coordinates
+                .clone()
+                .map(|j| size(series(dynamics, j)))
+                .collect()
+        });
+        let first = self.doubtful.len();
+        let EvaluationPoint { t, q, v, .. } = here.moment;
+        dynamics.value(t, q, v)?;
+        for guard in self.violated.drain(..) {
+            let value = leading(guard, 0, &[], &self.posed, dynamics);
+            self.doubtful.push(Doubt {
+                guard,
+                order_known: 0,
+                value: value.unwrap_or_default(),
+                size: 0.0,
+            });
+        }
+        self.shake(dynamics, here.moment, &sizes, first)?;
+        dynamics.series(t, q, v, order)?;
+        Ok(true)
+    }
+
+    /// Looks at the guards in question just after the moment. `None`: one of them vanishes to this order, and more is to
+    /// be had.
+    pub(super) fn judge(
+        &mut self,
+        dynamics: &Dynamics<T>,
+        here: SwitchContext<'_, T>,
+        order: usize,
+    ) -> Option<bool> {
+        let facts = here.facts;
+        let last = order == here.moment.order;
+        let ahead = self.ahead(dynamics, here, order);
         let mut unclear = false;
         let questions = core::mem::take(&mut self.questions);
         for &(guard, order_known) in &questions {
@@ -264,7 +323,7 @@ impl<T: Scalar> Decider<T> {
             let known = terms(series.iter().copied(), part).fold(0.0, f64::max) / size;
             ((100.0 * tolerance).clamp(1e-11, 1e-3) * known, here.blur())
         } else {
-            (unclear_part(tolerance), (INSTANT * tolerance).max(1e-14))
+            (unclear_part(tolerance), (INSTANT * tolerance).max(ROUNDED))
         };
         let cancelling = match guard {
             Guard::Branch(b) if here.facts.held[b] => self.size_as_of_rows(size, ahead, h),
@@ -273,6 +332,10 @@ impl<T: Scalar> Decider<T> {
                 self.size(guard, dynamics).max(grown)
             }
             _ => self.size(guard, dynamics) * unit_of_order(guard, h),
+        };
+        let absolute = match guard {
+            Guard::Branch(b) if !here.facts.held[b] => ROUNDED,
+            _ => absolute,
         };
         let noise = (relative * size).max(absolute * cancelling);
         match series.iter().position(|c| c.abs() > noise) {
