@@ -20,6 +20,9 @@ const POINTS: usize = 8;
 /// Two instants that are nearer than this share of a step are not taken apart any further.
 const NARROW: f64 = 1e-13;
 
+/// What is less than so many times its rounding lies at the border: the polynomials of a step are rounded as well.
+const AT_BORDER: f64 = 8.0;
+
 /// The share of the first part of what is cut in two: not a half, where symmetric motions have what is singular.
 const FIRST: f64 = 0.48;
 
@@ -98,12 +101,19 @@ impl Energies {
     pub fn follow(&mut self, step: &Step, findings: &mut Findings) {
         self.evaluator.take_for([]);
         self.take(step, 0.5 * step.end);
-        // Within a step choices stay as they are.
-        let side = |&guard: &usize| match self.evaluator.value(guard) < 0.0 {
-            true => (guard, Ordering::Less),
-            false => (guard, Ordering::Equal),
-        };
-        let sides: Vec<(usize, Ordering)> = self.guards.iter().map(side).collect();
+        // Within a step choices stay as they are, but for those that lie at their border all the time, as where two bodies fall side by side: the power of a
+        // depth of −1e-17 is no number.
+        let mut changes = vec![[0.0; 3]; self.q.len()];
+        let mut sides = Vec::new();
+        for &guard in &self.guards {
+            let value = self.evaluator.value(guard);
+            let terms = self.evaluator.gradient_size(guard, 0, &mut changes);
+            let side = match value < 0.0 {
+                true => Ordering::Less,
+                false => Ordering::Equal,
+            };
+            sides.extend((value.abs() > AT_BORDER * rounding_of(terms)).then_some((guard, side)));
+        }
         self.evaluator.take_for(sides);
         for energy in 0..self.terms.len() {
             let [(first, begin), (last, end)] = [0.0, step.end].map(|s| {
