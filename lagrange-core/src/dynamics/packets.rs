@@ -1,10 +1,12 @@
 //! Taylor series of several motions at once.
 //!
 //! Motions in the same mode run the same list of operations on other numbers. A packet takes some of them through the list side by
-//! side, with one instruction of the processor for all, so that each gets, bit for bit, what it would get alone.
+//! side, with one instruction of the processor for all, so that each gets, bit for bit, what it would get alone. Where the processor has no registers of
+//! four numbers, or the scalar is another one than `f64`, each goes alone.
 
 use super::Dynamics;
 use super::shape::{Extent, Shape};
+use crate::arithmetic::registers::{self, Body, Registers};
 use crate::arithmetic::{Pack, Scalar};
 use crate::program::Series;
 use std::sync::Arc;
@@ -31,7 +33,6 @@ pub(crate) struct Packets<T> {
     known: Vec<Packet<T>>,
     /// (packet, motion)
     members: Vec<(usize, usize)>,
-    processor: pulp::Arch,
 }
 
 impl<T: Scalar> Packets<T> {
@@ -40,7 +41,6 @@ impl<T: Scalar> Packets<T> {
         Self {
             known: Vec::new(),
             members: Vec::new(),
-            processor: pulp::Arch::new(),
         }
     }
 
@@ -54,9 +54,10 @@ impl<T: Scalar> Packets<T> {
         members.sort_unstable();
         for same in members.chunk_by(|a, b| a.0 == b.0) {
             for group in same.chunks(LANES) {
-                match *group {
-                    [(_, alone)] => waiting[alone].end_series(order),
-                    _ => self.run(group, waiting, order),
+                let together = group.len() > 1 && self.run(group, waiting, order);
+                if !together {
+                    let alone = group.iter();
+                    alone.for_each(|&(_, motion)| waiting[motion].end_series(order));
                 }
             }
         }
@@ -83,8 +84,17 @@ impl<T: Scalar> Packets<T> {
         self.known.len() - 1
     }
 
-    /// Expands one group. Places that are left over repeat the last motion.
-    fn run(&mut self, group: &[(usize, usize)], waiting: &mut [&mut Dynamics<T>], order: usize) {
+    /// Expands one group, unless the processor cannot. Places that are left over repeat the last motion.
+    fn run(
+        &mut self,
+        group: &[(usize, usize)],
+        waiting: &mut [&mut Dynamics<T>],
+        order: usize,
+    ) -> bool {
+        // It is a constant, and so nothing of this is compiled for numbers with derivatives: it would be most of what they cost the compiler.
+        if const { size_of::<T>() != size_of::<f64>() } {
+            return false;
+        }
         let motions: [usize; LANES] =
             core::array::from_fn(|lane| group[lane.min(group.len() - 1)].1);
         let Packet {
@@ -109,21 +119,25 @@ impl<T: Scalar> Packets<T> {
                 }
             }
         };
-        self.processor.dispatch(Expand {
-            series,
+        let side_by_side = SideBySide {
+            series: &mut *series,
             shape,
             registers,
             order,
             solve,
-        });
+        };
+        if registers::across::<Expansion, _>(side_by_side).is_err() {
+            return false;
+        }
         for (lane, &(_, motion)) in group.iter().enumerate() {
             waiting[motion].take_series(series, lane, order);
         }
+        true
     }
 }
 
-/// A series, to be compiled for every kind of processor.
-struct Expand<'a, T, F> {
+/// The series of some motions, which are solved by `F`.
+struct SideBySide<'a, T, F> {
     series: &'a mut Series<Lanes<T>>,
     shape: &'a Shape,
     registers: &'a mut [Lanes<T>],
@@ -131,7 +145,10 @@ struct Expand<'a, T, F> {
     solve: F,
 }
 
-impl<T, F> pulp::WithSimd for Expand<'_, T, F>
+/// Their expansion.
+struct Expansion;
+
+impl<T, F> Body<SideBySide<'_, T, F>> for Expansion
 where
     T: Scalar,
     F: FnMut(usize, &mut [Lanes<T>], &[Lanes<T>], &[Lanes<T>]),
@@ -139,13 +156,13 @@ where
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
-        self.series.run(
-            self.shape.program(Extent::Series),
-            self.registers,
-            self.order,
-            &self.shape.integrals,
-            self.solve,
+    fn run(_: Registers, motions: SideBySide<'_, T, F>) {
+        motions.series.run(
+            motions.shape.program(Extent::Series),
+            motions.registers,
+            motions.order,
+            &motions.shape.integrals,
+            motions.solve,
         );
     }
 }

@@ -51,6 +51,27 @@ pub(crate) struct Settings {
 }
 
 impl Settings {
+    /// The same, with the sizes of so many coordinates, once the tolerance and the absolute ones are known.
+    pub fn completed(&self, coordinates: usize) -> Self {
+        let asked = match self.goal {
+            Goal::Error(error) => error,
+            Goal::Tolerance | Goal::Estimate => self.tolerance,
+        };
+        let mut sizes = Vec::new();
+        if !self.absolute.is_empty() {
+            sizes.resize(coordinates, 1.0);
+        }
+        for &(CoordinateId(i), absolute) in &self.absolute {
+            // Items that the system does not have are refused when a run begins.
+            sizes.resize(sizes.len().max(i + 1), 1.0);
+            sizes[i] = absolute / asked;
+        }
+        Self {
+            sizes,
+            ..self.clone()
+        }
+    }
+
     /// What a step may get wrong.
     pub fn per_step(&self) -> Tolerance<'_> {
         Tolerance {

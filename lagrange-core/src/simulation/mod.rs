@@ -18,11 +18,12 @@ use crate::integrate::Method;
 use crate::monitor::Monitor;
 use crate::precompiled::Runnable;
 use crate::settings::{Goal, Settings, is_single};
-use crate::system::{Impacts, System};
+use crate::system::{Erased, Impacts, System};
 use crate::trajectory::{Instant, State, Trajectory};
 use core::borrow::Borrow;
 use core::fmt;
 use core::ops::Range;
+use runner::Work;
 
 /// How to run a system. Build it, set what differs from the defaults, call [`Simulation::run`].
 #[derive(Debug)]
@@ -223,16 +224,8 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
         start: impl Borrow<State<S::Scalar>>,
         span: Range<f64>,
     ) -> Result<Trajectory<S::Scalar>, Failure<S::Scalar>> {
-        let mut runner = self.runner();
-        let outcome = runner.run(start, span).map(|_| ());
-        let trajectory = runner.into_trajectory();
-        match outcome {
-            Ok(()) => Ok(trajectory),
-            Err(error) => Err(Failure {
-                error,
-                trajectory: Box::new(trajectory),
-            }),
-        }
+        let system = self.scene.erased().system;
+        run_alone(system, &self.settings(), start.borrow(), span)
     }
 
     /// Everything that a run works with, made ready once for many runs.
@@ -245,25 +238,9 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
         Ensemble::new(self.scene, &self.settings())
     }
 
-    /// What was set, once all of it is known.
     fn settings(&self) -> Settings {
-        let asked = match self.settings.goal {
-            Goal::Error(error) => error,
-            Goal::Tolerance | Goal::Estimate => self.settings.tolerance,
-        };
-        let mut sizes = Vec::new();
-        if !self.settings.absolute.is_empty() {
-            sizes.resize(self.scene.description().coordinates.len(), 1.0);
-        }
-        for &(CoordinateId(i), absolute) in &self.settings.absolute {
-            // Items that the system does not have are refused when a run begins.
-            sizes.resize(sizes.len().max(i + 1), 1.0);
-            sizes[i] = absolute / asked;
-        }
-        Settings {
-            sizes,
-            ..self.settings.clone()
-        }
+        let coordinates = self.scene.description().coordinates;
+        self.settings.completed(coordinates.len())
     }
 
     /// The state nearest to `reference` (in the mass metric) that has the values in `fixed` exactly and satisfies all constraints.
@@ -296,5 +273,24 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
         state: impl Borrow<State<S::Scalar>>,
     ) -> Result<Vec<Instant<S::Scalar>>, Error> {
         self.runner().feasible_modes(time, state)
+    }
+}
+
+/// One run with a memory of its own. The type of the system is forgotten, so that this is compiled once for all.
+fn run_alone<T: Runnable>(
+    system: Erased<T>,
+    settings: &Settings,
+    start: &State<T>,
+    span: Range<f64>,
+) -> Result<Trajectory<T>, Failure<T>> {
+    let mut work = Work::new(system, settings);
+    let outcome = work.run(start, span);
+    let trajectory = work.trajectory;
+    match outcome {
+        Ok(()) => Ok(trajectory),
+        Err(error) => Err(Failure {
+            error,
+            trajectory: Box::new(trajectory),
+        }),
     }
 }

@@ -162,7 +162,7 @@ impl<T: Runnable> Work<T> {
     }
 
     /// See [`Runner::run`].
-    fn run(&mut self, start: &State<T>, span: Range<f64>) -> Result<(), Error> {
+    pub(super) fn run(&mut self, start: &State<T>, span: Range<f64>) -> Result<(), Error> {
         self.run_in_pieces(start, span, usize::MAX, &mut |_| ())
     }
 

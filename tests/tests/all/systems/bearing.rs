@@ -1,6 +1,7 @@
 //! Several constraints press a friction together, N = √Σλ²: journals, a bead on a helix, a sleeve on a rail, a ball joint.
 
 use super::{PI, state};
+use crate::sensitivity::Slopes;
 use lagrange_core::prelude::*;
 use lagrange_tests::{
     METHODS, Random, SINGLE_METHODS, TOLERANCES, agree, certified, closure, event, methods_at,
@@ -416,7 +417,6 @@ struct Bars<T = f64> {
 /// Derivatives by friction, radius and start go through reversals and an impact, as differences of runs do.
 #[test]
 fn derivatives_go_through_bearings() {
-    use lagrange_core::arithmetic::Dual;
     const NUMBERS: [f64; 3] = [0.3, 0.08, 3.0];
     let until = 1.2;
     let plain = |[mu, radius, rate]: [f64; 3]| {
@@ -436,13 +436,13 @@ fn derivatives_go_through_bearings() {
             trajectory.final_state().q.clone(),
         )
     };
-    let [mu, radius, rate] = [0, 1, 2].map(|k| Dual::<f64, 3>::variable(NUMBERS[k], k));
+    let [mu, radius, rate] = [0, 1, 2].map(|k| Slopes::variable(NUMBERS[k], k));
     let bars = Bars {
-        mass: Dual::constant(1.5),
-        length: Dual::constant(0.6),
+        mass: Slopes::constant(1.5),
+        length: Slopes::constant(0.6),
         radius,
         mu,
-        far: Dual::constant(0.7),
+        far: Slopes::constant(0.7),
         rate,
     };
     let simulation = Simulation::new(&bars).tolerance(1e-12);
