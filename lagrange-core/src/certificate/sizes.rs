@@ -89,7 +89,11 @@ impl Equations {
         self.balance(at);
         for beside in beside {
             for ((size, there), here) in self.size.iter_mut().zip(beside).zip(&self.residual) {
-                *size += (there - here).abs() / CHANGE;
+                let change = (there - here).abs() / CHANGE;
+                // Beside an attitude of unit length a root may have no value, as that of 1 − n² where a disc lies nearly flat.
+                if change.is_finite() {
+                    *size += change;
+                }
             }
         }
         let mut size = core::mem::take(&mut self.size);

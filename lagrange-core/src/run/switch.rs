@@ -143,8 +143,10 @@ impl<T: Scalar> Run<T> {
                 _ => {}
             }
         }
-        // Slips that were zero at this very instant still are.
-        for &(guard, _) in &self.locator.zeros {
+        // Slips that were zero at this very instant still are, and those that the mode has kept at zero since it began: a contact holds what they rub on.
+        let decided = self.switcher.decider.decision.zeros.iter();
+        let kept = decided.filter(|(_, order)| *order >= guard::LENGTH);
+        for &(guard, _) in self.locator.zeros.iter().chain(kept) {
             if let Guard::Slip(f) = guard {
                 facts.resting[f] = true;
             }

@@ -341,16 +341,30 @@ impl<T: Scalar> Decider<T> {
         candidates: &Candidates,
     ) -> Result<bool, EvaluationError> {
         let outcome = self.search_strictly(dynamics, table, here, candidates);
-        if let Ok(true) = outcome {
+        let found = matches!(outcome, Ok(true));
+        if found && !self.lets_go(here.facts) {
             return outcome;
         }
+        let sticking = found.then(|| sticks(&self.best));
         let loosely =
             self.loosely(|decider| decider.search_strictly(dynamics, table, here, candidates));
-        if let Ok(true) = loosely {
-            loosely
-        } else {
-            outcome
+        let more = |sticking| sticks(&self.best) > sticking;
+        if matches!(loosely, Ok(true)) && sticking.is_none_or(more) {
+            return loosely;
         }
+        if found {
+            return self.search_strictly(dynamics, table, here, candidates);
+        }
+        outcome
+    }
+
+    /// Whether a friction begins to slip in the best mode while a contact opens, or is open, that touches: it may be that the contact carries nothing and the
+    /// friction holds, which is looked for loosely.
+    fn lets_go(&self, facts: &SwitchFacts) -> bool {
+        let mut frictions = self.best.frictions.iter().zip(&facts.resting);
+        let mut contacts = self.best.contacts.iter().zip(&facts.touching);
+        frictions.any(|(mode, &resting)| resting && matches!(mode, FrictionMode::Slip(_)))
+            && contacts.any(|(&closed, &touching)| touching && !closed)
     }
 
     fn search_strictly(
@@ -407,6 +421,13 @@ impl<T: Scalar> Decider<T> {
                 }
                 Ok(false) => {}
                 Err(error) => failure = Some(Error::from_evaluation(error, time, mode, d)),
+            }
+        }
+        // What a run takes may be one in which a contact carries nothing of what others hold.
+        if let Ok(true) = self.search(dynamics, table, here, candidates) {
+            let differs = |other: &Vec<f64>| differ(other, &self.motion);
+            if motions.iter().all(differs) {
+                feasible.insert(0, self.best.clone());
             }
         }
         self.listings = listings;
@@ -507,7 +528,8 @@ impl<T: Scalar> Decider<T> {
                 continue;
             }
             // Stick is preferred to slip without being ambiguous (μs > μk allows both).
-            let passes = |found: Found| unique || !found.loose && found.sticks > sticks(mode);
+            let holds = |found: Found| !found.loose || self.lies_loosely;
+            let passes = |found: Found| unique || holds(found) && found.sticks > sticks(mode);
             if best.is_some_and(passes) {
                 continue;
             }

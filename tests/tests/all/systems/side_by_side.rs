@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{METHODS, TOLERANCES, agree, certified, methods_at, run_by, words};
+use lagrange_tests::{METHODS, Random, TOLERANCES, agree, certified, methods_at, run_by, words};
 
 /// Two pucks on a rough table.
 #[derive(Lagrangian, Clone, Debug)]
@@ -98,6 +98,83 @@ fn a_puck_pushes_two_along() {
                 agree(&what, motion.final_state().q[j], expected, 10.0 * tolerance);
             }
             certified(&what, &motion);
+        }
+    }
+}
+
+/// Two bodies above a mat, with a spring between them that only pulls.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y, z),
+    kinetic = lower/2 * der(y)^2 + upper/2 * der(z)^2,
+    potential = 9.81 * (lower * y + upper * z) + spring/2 * max(0, z - y - apart)^2,
+    force(mat: y = if(y <= 0, max(0, -stiffness * y - damping * der(y)), 0)),
+    dissipation(air: damping/20 * (der(y) - der(z))^2),
+)]
+struct Fallers {
+    lower: f64,
+    upper: f64,
+    spring: f64,
+    stiffness: f64,
+    damping: f64,
+    apart: f64,
+}
+
+/// The same with a stiffer spring, without the mat.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y, z),
+    kinetic = lower/2 * der(y)^2 + upper/2 * der(z)^2,
+    potential = 9.81 * (lower * y + upper * z) + spring/2.2 * max(0, z - y - apart)^2.2,
+)]
+struct Hardening {
+    lower: f64,
+    upper: f64,
+    spring: f64,
+    apart: f64,
+}
+
+/// Bodies that fall side by side with a spring between them at its natural length: rounding decides on which side of it they are, and either side
+/// will do.
+#[test]
+fn bodies_fall_at_the_length_of_a_spring() {
+    let fall = |t: f64, h: f64, speed: f64| h + speed * t - 9.81 * t * t / 2.0;
+    let fallers = Fallers {
+        lower: 0.768_654_254_247_266_1,
+        upper: 1.873_166_328_775_571_5,
+        spring: 147.828_695_878_630_72,
+        stiffness: 1_249.938_804_552_568_4,
+        damping: 9.142_301_851_618_694,
+        apart: 0.3,
+    };
+    let (h, t) = (0.852_048_027_693_799_3, 0.415);
+    for pair in methods_at(METHODS, TOLERANCES) {
+        let run = run_by(&fallers, pair, state(&[h, h + 0.3], &[0.0; 2]), t);
+        certified(format!("{pair:?}"), &run);
+        for (x, higher) in run.final_state().q.iter().zip([0.0, 0.3]) {
+            let what = format!("height by {pair:?}");
+            agree(what, *x, fall(t, h, 0.0) + higher, 10.0 * pair.1);
+        }
+    }
+    let mut random = Random::new(64);
+    for _ in 0..8 {
+        let [lower, upper, spring] =
+            [(0.3, 3.0), (0.3, 3.0), (20.0, 2e3)].map(|(low, high)| random.between(low, high));
+        let [h, apart, speed] =
+            [(0.5, 3.0), (0.1, 0.9), (-2.0, 2.0)].map(|(low, high)| random.between(low, high));
+        let hardening = Hardening {
+            lower,
+            upper,
+            spring,
+            apart,
+        };
+        for method in METHODS {
+            let start = state(&[h, h + apart], &[speed; 2]);
+            let run = run_by(&hardening, (method, 1e-9), start, 0.6);
+            certified(format!("{method:?} {hardening:?}"), &run);
+            for (x, higher) in run.final_state().q.iter().zip([0.0, apart]) {
+                agree("height", *x, fall(0.6, h, speed) + higher, 1e-8);
+            }
         }
     }
 }
