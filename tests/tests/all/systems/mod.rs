@@ -17,6 +17,7 @@ mod billiards;
 mod block;
 mod blows;
 mod borders;
+mod brake_shoes;
 mod brakes;
 mod breaks;
 mod cart_pole;
