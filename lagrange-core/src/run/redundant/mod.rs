@@ -250,24 +250,25 @@ impl<T: Scalar> Run<T> {
             run.evaluate_end(part + later).is_ok()
                 && run.switcher.redundant.turn(&mut run.dynamics, ROOT)
         };
-        let loads = self.switcher.redundant.values();
-        let vanishes =
-            loads.iter().all(|value| value.abs() <= NO_LOAD) && self.keeps_bounds_soon(part);
-        let found = vanishes || LATER.iter().any(|later| turns(self, later));
+        let mut loads = self.switcher.redundant.values().iter();
+        let vanish = loads.all(|value| value.abs() <= NO_LOAD);
+        // Signs that have just been taken, at an instant that is known to rounding, are those of the motion from here on.
+        let begins = (vanish || part == 0.0) && self.keeps_bounds_soon(part);
+        let found = begins || LATER.iter().any(|later| turns(self, later));
         self.evaluate()?;
         let redundant = &mut self.switcher.redundant;
         redundant.follow(&mut self.dynamics);
         let critical = redundant.critical(BORDER);
         let found = found && critical.is_none_or(|composite| self.joint_value(&composite) >= -ROOT);
-        if found && vanishes {
-            self.begin_without_loads(part);
+        if found && begins {
+            self.begin_at_borders(part);
         }
         Ok(found)
     }
 
     /// Whichever guards decide from here on, at part `part` of the step, begin at zero. Where the step begins here it may have been so long that loads turn
     /// again in it, and with guards that mean nothing here: the next one is shorter.
-    fn begin_without_loads(&mut self, part: f64) {
+    fn begin_at_borders(&mut self, part: f64) {
         let begin = (0..2 * MOST_CORRECTIONS).map(|k| (Guard::Composite(k), 1));
         self.locator.zeros.extend(begin);
         if part == 0.0 {
