@@ -18,6 +18,11 @@ pub(super) struct Bound {
 }
 
 impl Bound {
+    /// A force of this size that presses.
+    pub fn pressed_by(&self, size: f64) -> [f64; 3] {
+        self.pressing.map(|part| part * size)
+    }
+
     /// The plane that touches the cone in this direction.
     pub fn plane(&self, along: [f64; 2]) -> ConePlane {
         ConePlane {

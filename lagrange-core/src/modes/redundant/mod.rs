@@ -302,6 +302,17 @@ impl<T: Scalar> RedundantForces<T> {
         &self.bounds.forces.values
     }
 
+    /// What each friction with a cone can hold, relative to the size of that, in the directions in which constraints press it.
+    pub fn holds(&self) -> Vec<[f64; 3]> {
+        let forces = &self.bounds.forces;
+        let cones = self.bounds.list.iter().zip(&forces.cones);
+        let holds = cones.filter_map(|(bound, cone)| match *cone {
+            Cone::Ray(_) => None,
+            Cone::SecondOrder(limit) => Some(bound.pressed_by(forces.values[limit])),
+        });
+        holds.collect()
+    }
+
     /// The same for guards with other values than those looked at, and the same rows.
     pub fn critical_at(
         &self,

@@ -1,7 +1,8 @@
 //! How near undetermined forces may come to their bounds between the instants of a step at which that is known.
 //!
 //! The widest margin by which forces keep all bounds is a concave function of what bounds them (duality of linear and conic programmes): while
-//! that changes evenly, the margin is nowhere less than at both ends. It dips by no more than the values of the bounds bend.
+//! that changes evenly, the margin is nowhere less than at both ends. It dips by no more than the values of the bounds bend, and by what frictions can hold
+//! the less where the force of a constraint that presses them changes its sign between two instants, or turns.
 
 /// Of so many instants in one step nothing more is learnt.
 const MOST: usize = 24;
@@ -23,16 +24,19 @@ struct Margin {
     least: f64,
     /// The values of all bounds, relative.
     values: Vec<f64>,
+    /// What frictions can hold, relative, in the directions in which constraints press them.
+    holds: Vec<[f64; 3]>,
 }
 
 impl Margins {
-    /// Notes that with bounds of these `values` forces keep all of them by at least `least`.
-    pub fn note(&mut self, part: f64, least: f64, values: &[f64]) {
+    /// Notes that with bounds of these `values` forces keep all of them by at least `least`, where frictions are pressed to hold so much.
+    pub fn note(&mut self, part: f64, least: f64, values: &[f64], holds: Vec<[f64; 3]>) {
         let place = self.known.partition_point(|known| known.part < part);
         let margin = Margin {
             part,
             least,
             values: values.to_vec(),
+            holds,
         };
         self.known.insert(place, margin);
     }
@@ -68,7 +72,21 @@ impl Margins {
         let length = self.known[k + 1].part - self.known[k].part;
         let bends = [k.checked_sub(1), Some(k)].into_iter().flatten();
         let bend = bends.map(|first| self.bend(first)).fold(0.0, f64::max);
-        SAFETY * bend * length * length / 4.0
+        SAFETY * bend * length * length / 4.0 + self.turn(k)
+    }
+
+    /// How much less a friction may hold between instants `k` and `k` + 1 than in between at both, because what presses it turns.
+    fn turn(&self, k: usize) -> f64 {
+        let pairs = self.known[k].holds.iter().zip(&self.known[k + 1].holds);
+        let less = pairs.map(|(before, after)| {
+            let dot =
+                |a: &[f64; 3], b: &[f64; 3]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
+            let [one, other] = [before, after].map(|force| dot(force, force).sqrt());
+            // Of forces that change evenly, where one is as far from its end as it is large.
+            let sum = (one + other).max(f64::MIN_POSITIVE);
+            (one * other - dot(before, after)) / sum
+        });
+        less.fold(0.0, f64::max)
     }
 
     /// The largest second divided difference of a value over three instants.

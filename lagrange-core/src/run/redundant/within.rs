@@ -93,7 +93,7 @@ impl<T: Scalar> Run<T> {
     fn note_margin(&self, part: f64, margins: &mut Margins) -> Option<CompositeGuard> {
         let redundant = &self.switcher.redundant;
         let (margin, critical) = redundant.nearest(NEARBY);
-        margins.note(part, margin, redundant.values());
+        margins.note(part, margin, redundant.values(), redundant.holds());
         critical
     }
 
