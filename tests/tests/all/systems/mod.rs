@@ -119,6 +119,7 @@ mod stiff;
 mod stools;
 mod stretched;
 mod striking_rod;
+mod turned_loads;
 mod turned_room;
 mod turntable;
 mod two_walls;
