@@ -75,14 +75,14 @@ impl Margins {
         SAFETY * bend * length * length / 4.0 + self.turn(k)
     }
 
-    /// How much less a friction may hold between instants `k` and `k` + 1 than in between at both, because what presses it turns.
+    /// How much less a friction may hold between instants `k` and `k` + 1, because what presses it turns, than if it only grew or fell.
     fn turn(&self, k: usize) -> f64 {
         let pairs = self.known[k].holds.iter().zip(&self.known[k + 1].holds);
         let less = pairs.map(|(before, after)| {
             let dot =
                 |a: &[f64; 3], b: &[f64; 3]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
             let [one, other] = [before, after].map(|force| dot(force, force).sqrt());
-            // Of forces that change evenly, where one is as far from its end as it is large.
+            // Of forces that change evenly, where they are smallest.
             let sum = (one + other).max(f64::MIN_POSITIVE);
             (one * other - dot(before, after)) / sum
         });
