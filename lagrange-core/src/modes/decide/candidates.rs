@@ -120,7 +120,8 @@ impl Facts {
     }
 }
 
-/// What is preferred has the lower rank: frictions that hold, closed contacts, the present mode, few changes, and that what has been overcome lets go.
+/// What is preferred has the lower rank: frictions that hold, closed contacts, the present mode, few changes, and that what has been overcome lets go, with
+/// a force to the same side: where contacts keep what slips at rest either side would do.
 /// What holds comes before what is closed: a cupboard that its friction holds tips over its edge, although it could stand on both feet if these slid, μk < μs.
 fn rank(mode: &Mode, here: SwitchContext<'_, impl Copy>) -> u128 {
     /// Bits of each criterion.
@@ -136,6 +137,8 @@ fn rank(mode: &Mode, here: SwitchContext<'_, impl Copy>) -> u128 {
     let holds = |guard: &Guard| guard.holding().is_some_and(sticks_on);
     let overcome = overcome(here);
     let left_behind = overcome.clone().filter(holds).count();
+    let turned = overcome.clone().filter(|&guard| turns(guard, mode));
+    let turned = turned.count();
     // All together may hold by other bounds: of a load that does not grow on, or where what presses them turns.
     let may_hold = !facts.again && left_behind == overcome.count();
     let changes = changes(mode, present);
@@ -151,10 +154,26 @@ fn rank(mode: &Mode, here: SwitchContext<'_, impl Copy>) -> u128 {
         most - closed,
         usize::from(differs),
         changes,
-        left_behind,
+        left_behind * (mode.frictions.len() + 1) + turned,
     ];
     let append = |rank, criterion| rank << BITS | criterion as u128;
     criteria.into_iter().fold(0, append)
+}
+
+/// Whether a friction that has been overcome slips with a force to the other side than it has held by.
+fn turns(overcome: Guard, mode: &Mode) -> bool {
+    let (f, held_by) = match overcome {
+        Guard::StickUpper(f) => (f, 1.0),
+        Guard::StickLower(f) => (f, -1.0),
+        _ => return false,
+    };
+    match mode.frictions[f] {
+        FrictionMode::Slip(Sliding {
+            direction: Direction::Fixed([slip, _]),
+            ..
+        }) => slip * held_by > 0.0,
+        _ => false,
+    }
 }
 
 impl Listings {
