@@ -2,7 +2,7 @@
 
 use super::Decider;
 use super::just_after::{AHEAD, terms, unclear_part};
-use super::questions::{blame, concerns, leading, list_questions};
+use super::questions::{Doubt, blame, concerns, leading, list_questions};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
 use crate::integrate::horner;
@@ -54,18 +54,6 @@ const ROUNDING_UNITS: f64 = 8.0;
 
 /// A condition jumps if it changes by more than this, relative, with the sides of others.
 const JUMP: f64 = 1e-6;
-
-/// A guard that may be rounding.
-#[derive(Clone, Debug)]
-pub(super) struct Doubt {
-    pub(super) guard: Guard,
-    /// How many of its coefficients are known to vanish.
-    pub(super) order_known: usize,
-    /// The first that is not, times its factorial,
-    pub(super) value: f64,
-    /// and what it would be if the state changed by its own size.
-    pub(super) size: f64,
-}
 
 impl<T: Scalar> Decider<T> {
     /// Whether `mode` is feasible; if so, `zeros` says which guards begin with how many vanishing coefficients, and if not,

@@ -1,8 +1,7 @@
 //! What guards do just after the instant, by their series.
 
 use super::Decider;
-use super::examine::Doubt;
-use super::questions::{blame, concerns, leading, unit_of_order};
+use super::questions::{Doubt, blame, concerns, leading, unit_of_order};
 use crate::arithmetic::Scalar;
 use crate::arithmetic::products::ROW;
 use crate::dynamics::{Dynamics, EvaluationError};

@@ -35,9 +35,9 @@ use crate::modes::scale::Sizes;
 use crate::modes::table::Table;
 use crate::system::{Constraint, Description};
 use candidates::{Candidates, Listings, MOST_CANDIDATES};
-use examine::Doubt;
 use incipient::Beginning;
 use parts::Parts;
+use questions::Doubt;
 
 /// The mode that goes on.
 #[derive(Clone, Debug)]

@@ -9,6 +9,18 @@ use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
 use crate::system::{Description, Normal};
 
+/// A guard that may be rounding.
+#[derive(Clone, Debug)]
+pub(super) struct Doubt {
+    pub(super) guard: Guard,
+    /// How many of its coefficients are known to vanish.
+    pub(super) order_known: usize,
+    /// The first that is not, times its factorial,
+    pub(super) value: f64,
+    /// and what it would be if the state changed by its own size.
+    pub(super) size: f64,
+}
+
 /// The first coefficient of a guard that is not known to vanish, times its factorial, as far as values tell.
 pub(super) fn leading<T: Scalar>(
     guard: Guard,
