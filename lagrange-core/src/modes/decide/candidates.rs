@@ -137,8 +137,7 @@ fn rank(mode: &Mode, here: SwitchContext<'_, impl Copy>) -> u128 {
     let holds = |guard: &Guard| guard.holding().is_some_and(sticks_on);
     let overcome = overcome(here);
     let left_behind = overcome.clone().filter(holds).count();
-    let turned = overcome.clone().filter(|&guard| turns(guard, mode));
-    let turned = turned.count();
+    let turned = overcome.clone().filter(|&guard| turns(guard, mode)).count();
     // All together may hold by other bounds: of a load that does not grow on, or where what presses them turns.
     let may_hold = !facts.again && left_behind == overcome.count();
     let changes = changes(mode, present);

@@ -4,6 +4,8 @@
 //! that changes evenly, the margin is nowhere less than at both ends. It dips by no more than the values of the bounds bend, and by what frictions can hold
 //! the less where the force of a constraint that presses them changes its sign between two instants, or turns.
 
+use crate::linear::direction::{dot, length};
+
 /// Of so many instants in one step nothing more is learnt.
 const MOST: usize = 24;
 
@@ -79,12 +81,10 @@ impl Margins {
     fn turn(&self, k: usize) -> f64 {
         let pairs = self.known[k].holds.iter().zip(&self.known[k + 1].holds);
         let less = pairs.map(|(before, after)| {
-            let dot =
-                |a: &[f64; 3], b: &[f64; 3]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
-            let [one, other] = [before, after].map(|force| dot(force, force).sqrt());
+            let [one, other] = [before, after].map(|&force| length(force));
             // Of forces that change evenly, where they are smallest.
             let sum = (one + other).max(f64::MIN_POSITIVE);
-            (one * other - dot(before, after)) / sum
+            (one * other - dot(*before, *after)) / sum
         });
         less.fold(0.0, f64::max)
     }

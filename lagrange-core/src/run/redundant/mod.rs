@@ -281,9 +281,8 @@ impl<T: Scalar> Run<T> {
     fn keeps_bounds_soon(&mut self, part: f64) -> bool {
         let mut clear = false;
         let keeps = LATER.iter().all(|later| {
-            self.evaluate_end(part + later).is_ok() && {
-                let redundant = &mut self.switcher.redundant;
-                redundant.follow(&mut self.dynamics);
+            self.follows_forces_to(part + later) && {
+                let redundant = &self.switcher.redundant;
                 clear |= redundant.critical(ROOT).is_none();
                 redundant.critical(-ROOT).is_none()
             }
@@ -298,20 +297,25 @@ impl<T: Scalar> Run<T> {
         let mut parts = (1..=PLACES).map(|place| end * f64::from(place) / f64::from(PLACES));
         !self.switcher.redundant.has_open()
             || parts.all(|part| {
-                self.evaluate_end(part).is_err() || {
-                    self.switcher.redundant.follow(&mut self.dynamics);
-                    self.switcher.redundant.critical(-ROOT).is_none()
-                }
+                !self.follows_forces_to(part) || self.switcher.redundant.critical(-ROOT).is_none()
             })
+    }
+
+    /// Looks at undetermined forces at part `part` of the step, with the signs that there are. False: the state there cannot be evaluated.
+    fn follows_forces_to(&mut self, part: f64) -> bool {
+        let known = self.evaluate_end(part).is_ok();
+        if known {
+            self.switcher.redundant.follow(&mut self.dynamics);
+        }
+        known
     }
 
     /// Locates where between these parts of the step forces cease to keep all bounds, and adds the composite guard that says so; `dynamics` and
     /// `scratch` end at part `end` again. Not found: they do not keep them at the first part either.
     fn locates_a_joint(&mut self, [mut before, mut after]: [f64; 2], end: f64) -> bool {
         let critical_at = |run: &mut Self, part: f64, border: f64| {
-            run.evaluate_end(part).ok()?;
-            run.switcher.redundant.follow(&mut run.dynamics);
-            run.switcher.redundant.critical(border)
+            let known = run.follows_forces_to(part);
+            known.then(|| run.switcher.redundant.critical(border))?
         };
         if critical_at(self, before, -ROOT).is_none() {
             while after - before > 2.0 * f64::EPSILON * after {
