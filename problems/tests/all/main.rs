@@ -1,6 +1,7 @@
 //! All tests of the program and its catalogue, in one binary: it is linked once, and its tests share the processors.
 
 mod accuracy;
+mod balls_in_space;
 mod book;
 mod browser;
 mod checks;

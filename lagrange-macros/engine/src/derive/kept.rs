@@ -4,16 +4,30 @@
 //! all products of all angles; as numbers of their own they take a few operations each, and so do their derivatives.
 
 use crate::model::{Normal, Restitution, System, Worked};
-use crate::symbolic::ExprId;
+use crate::symbolic::{ExprId, MOST_OPERANDS};
 
 /// Energies of fewer terms are multiplied out in any case.
 const FEW_TERMS: f64 = 1000.0;
 
-/// Equations that take more operands to derive have fewer operations if what is shared in them is kept whole.
-pub(super) const MULTIPLIED_OUT: usize = 250_000;
+/// And so are slips of fewer terms than these. A row has the rates of all its factors as well.
+const FEW_TERMS_OF_A_SLIP: f64 = 300.0;
 
-/// Whether multiplying out may give too much: energies or dissipations have many terms then.
-pub(super) fn may_outgrow(system: &System) -> bool {
+/// Equations that take more operands to derive have fewer operations if what is shared in them is kept whole.
+const MULTIPLIED_OUT: usize = 250_000;
+
+/// How many operands may be spent on equations that are multiplied out.
+pub(super) fn operands_multiplied_out(system: &System) -> usize {
+    let slips = system.frictions.iter().flat_map(|friction| &friction.slip);
+    let slips: Vec<ExprId> = slips.map(|&(slip, _)| slip).collect();
+    let many = system.pool.terms_multiplied_out(&slips) > FEW_TERMS_OF_A_SLIP;
+    match many || energies_may_outgrow(system) {
+        true => MULTIPLIED_OUT,
+        false => MOST_OPERANDS,
+    }
+}
+
+/// Whether multiplying out may give too much of energies or dissipations: they have many terms then.
+pub(super) fn energies_may_outgrow(system: &System) -> bool {
     let energies = system.kinetic.iter().chain(&system.potential);
     let energies = energies.map(|term| term.energy);
     let functions = energies.chain(system.dissipations.iter().map(|d| d.rayleigh));

@@ -101,11 +101,8 @@ impl Equations {
 /// [full](crate::symbolic::Pool::is_full) they are not complete.
 pub fn equations(mut system: System, sink: &mut Diagnostics) -> Option<Equations> {
     onsets::delay(&mut system);
-    if !kept::may_outgrow(&system) {
-        return derived(system, sink);
-    }
     let before = system.pool.clone();
-    system.pool.allow(kept::MULTIPLIED_OUT);
+    system.pool.allow(kept::operands_multiplied_out(&system));
     let mut equations = derived(system, sink)?;
     if equations.system.pool.is_full() {
         let mut system = equations.system;
@@ -223,7 +220,7 @@ fn balance(
     groups: &[Group],
     loads: &[(usize, NeedId, ExprId)],
 ) -> Option<WholeBalance> {
-    if kept::may_outgrow(&sheet.system) {
+    if kept::energies_may_outgrow(&sheet.system) {
         return None;
     }
     let pool = &mut sheet.system.pool;
