@@ -255,7 +255,7 @@ impl<T: Scalar> Run<T> {
             self.now.valued = valued;
             self.note_redundant_forces();
             // What sticks beside what slides holds by a load that it would not have on equal springs.
-            let bent = self.now.mode.has_slips() && self.switcher.redundant.are_bent();
+            let bent = (self.switcher.redundant).bend_loads_of_slips(&self.dynamics);
             self.switcher.decider.decision.ambiguous |= bent;
         } else {
             self.switcher.redundant.clear();

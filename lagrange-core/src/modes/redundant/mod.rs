@@ -237,14 +237,12 @@ impl<T: Scalar> RedundantForces<T> {
     /// The present signs, and all others of constraints whose forces are open and carry frictions that stick.
     fn choices_of_signs(&self, dynamics: &Dynamics<T>) -> Vec<Vec<f64>> {
         let d = dynamics.description();
-        let acting = dynamics.acting_rows();
         let is_open = |i: &usize| {
             let sticks = |(f, friction): (usize, &Friction)| {
                 matches!(friction.normal, Normal::Constraint(on) if on == *i)
                     && dynamics.mode().frictions[f] == FrictionMode::Stick
             };
-            let force = acting.binary_search(&d.constraints[*i].row);
-            force.is_ok_and(|k| !self.least.freedom.is_determined(k))
+            self.leaves_open(dynamics, d.constraints[*i].row)
                 && d.frictions.iter().enumerate().any(sticks)
         };
         let open: Vec<usize> = (0..self.signs.len())
@@ -402,10 +400,22 @@ impl<T: Scalar> RedundantForces<T> {
         (value / sum, tells.then_some(composite))
     }
 
-    /// Whether bounds keep forces from being those of least norm.
-    pub fn are_bent(&self) -> bool {
+    /// Whether bounds keep forces from being those of least norm, where one of these is the load of a friction that slips.
+    pub fn bend_loads_of_slips(&self, dynamics: &Dynamics<T>) -> bool {
         let forces = &self.bounds.forces;
-        self.has_open() && forces.least(&forces.values) < -ROUNDING
+        let (d, mode) = (dynamics.description(), dynamics.mode());
+        let slips = |&f: &usize| matches!(mode.frictions[f], FrictionMode::Slip(_));
+        let open =
+            |f: usize| (d.frictions[f].normal.rows(d)).any(|row| self.leaves_open(dynamics, row));
+        self.has_open()
+            && forces.least(&forces.values) < -ROUNDING
+            && (0..d.frictions.len()).filter(slips).any(open)
+    }
+
+    /// Whether the force of this row acts, and the motion does not determine it.
+    fn leaves_open(&self, dynamics: &Dynamics<T>, row: usize) -> bool {
+        let force = dynamics.acting_rows().binary_search(&row);
+        force.is_ok_and(|i| !self.least.freedom.is_determined(i))
     }
 
     /// The forces of all rows at the last value of `dynamics`, and which of them are undetermined (nothing where all are

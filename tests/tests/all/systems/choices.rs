@@ -157,3 +157,45 @@ fn what_holds_goes_on_to_hold_though_a_contact_opens() {
         agree(method, v[2], tilt[1], 1e-7);
     }
 }
+
+/// A lift that stands on the ground and is held by its guide, which could not hold it alone, beside a cart whose brake a motor overcomes.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(cart, lift),
+    kinetic = cart_mass/2 * der(cart)^2 + mass/2 * der(lift)^2,
+    potential = mass * gravity * lift,
+    contact(ground: lift >= 0),
+    friction(brake: slip = der(cart), limit = brakes),
+    friction(guide: slip = der(lift), limit = guides),
+    force(motor: cart = rate * t),
+)]
+struct LiftBesideCart {
+    cart_mass: f64,
+    mass: f64,
+    gravity: f64,
+    brakes: f64,
+    guides: f64,
+    rate: f64,
+}
+
+/// How ground and guide share the weight is open, and on equal springs the guide would have more than it can hold; the cart, which slips, knows nothing of it.
+#[test]
+fn what_slips_elsewhere_does_not_make_shared_loads_a_choice() {
+    for (guides, rate) in [(3.0, 10.0), (0.5, 7.0), (100.0, 10.0)] {
+        let scene = LiftBesideCart {
+            cart_mass: 0.3,
+            mass: 1.2,
+            gravity: 9.81,
+            brakes: 5.6,
+            guides,
+            rate,
+        };
+        for method in METHODS {
+            let run = run_by(&scene, (method, 1e-9), state(&[0.0; 2], &[0.0; 2]), 1.0);
+            assert_eq!(words(&run), ["brake slips"], "{method}");
+            let event = &run.events()[0];
+            assert!(!event.ambiguous, "{method}: {guides}");
+            agree("slips", event.time, scene.brakes / rate, 1e-9);
+        }
+    }
+}
