@@ -174,10 +174,10 @@ pub enum Error {
         item: &'static str,
         /// Number of combinations that were tried of contacts that take part and frictions that hold.
         tried: usize,
-        /// Whether frictions take part.
+        /// Whether one is found without friction.
         friction: bool,
-        /// Whether several contacts are hit at once.
-        several: bool,
+        /// Whether one is found by impacts in turn, where all were to be solved together.
+        together: bool,
     },
     /// Impacts in turn do not come to an end at one instant.
     EndlessImpacts {

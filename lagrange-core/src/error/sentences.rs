@@ -187,15 +187,17 @@ impl fmt::Display for Error {
                 item,
                 tried,
                 friction,
-                several,
+                together,
             } => write!(
                 f,
                 "t = {} ({mode}): no solution of the impact at `{item}` is found, in {tried} combinations of what takes part and what holds; {}",
                 Shortest(*time),
-                match (friction, several) {
-                    (false, _) => "contacts that move may leave no room between them",
-                    (true, true) => "impacts in turn may have one (impacts = in_turn)",
-                    (true, false) => "lower the friction or make the contact compliant",
+                match (together, friction) {
+                    (true, _) => "impacts in turn have one (impacts = in_turn)",
+                    (false, true) =>
+                        "without friction there is one: lower it, or make the contact compliant",
+                    (false, false) =>
+                        "constraints leave no speeds that keep apart what touches: something may be driven into it, or have no room between contacts that move",
                 }
             ),
             Error::EndlessImpacts {

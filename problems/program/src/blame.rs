@@ -1,6 +1,7 @@
 //! Why a motion cannot begin, for who wrote the declaration: where the item stands, and the parameter whose value is the cause.
 //!
-//! A value is the cause if the motion can begin with another one in its place: the default of what was set, or 1 where it is 0.
+//! A value is the cause if the motion can begin with another one in its place: the default of what was set; or 1 where it is 0 and something has no value, as
+//! in a division by it, or no inertia.
 
 use crate::outcome::Outcome;
 use crate::request::{Refusal, Request, find_parameters};
@@ -37,7 +38,7 @@ fn explained(scene: &dyn Scene, request: &Request, error: &Error, told: String) 
     // Where a message names the number itself there is nothing to look for.
     let cause = match error {
         Error::Domain { fields, .. } if !fields.is_empty() => None,
-        _ => cause(scene, request),
+        _ => cause(scene, request, error),
     };
     let cause = cause.map_or(String::new(), |cause| format!("; {cause}"));
     let of_state = match error {
@@ -74,7 +75,11 @@ fn items(error: &Error) -> Option<Vec<&'static str>> {
 }
 
 /// The parameter whose value alone is the cause.
-fn cause(scene: &dyn Scene, request: &Request) -> Option<String> {
+fn cause(scene: &dyn Scene, request: &Request, error: &Error) -> Option<String> {
+    let by_zero = matches!(
+        error,
+        Error::Domain { .. } | Error::Singular { .. } | Error::NotFinite { .. }
+    );
     let (d, defaults) = (scene.description(), scene.defaults());
     let mut values = defaults.clone();
     for (name, value) in &request.parameters {
@@ -85,7 +90,7 @@ fn cause(scene: &dyn Scene, request: &Request) -> Option<String> {
     let others = values.iter().zip(&defaults).enumerate();
     let others = others.filter_map(|(i, (value, default))| match *value {
         set if set != *default => Some((i, *default)),
-        0.0 => Some((i, 1.0)),
+        0.0 if by_zero => Some((i, 1.0)),
         _ => None,
     });
     let mut others = others.filter(|(i, other)| {

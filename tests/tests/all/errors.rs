@@ -1153,6 +1153,50 @@ fn a_constraint_that_holds_where_its_contact_would_have_to_pull_is_told() {
     assert!(told.contains("let a friction on it hold instead"), "{told}");
 }
 
+/// A crank that is driven, with friction in its pin, swings its end into a table.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(turn, x, y),
+    kinetic = der(turn)^2/2 + mass/2 * (der(x)^2 + der(y)^2),
+    constraint(drive: turn == rate * t),
+    constraint(aside: x == arm * cos(turn)),
+    constraint(up: y == arm * sin(turn)),
+    friction(pin on (aside, up): slip = pin_radius * der(turn), static = mu, kinetic = mu),
+    contact(table: y <= height, restitution = 0),
+    start(level: x = arm, der(turn) = rate, der(y) = arm * rate),
+)]
+struct DrivenCrank {
+    mass: f64,
+    rate: f64,
+    arm: f64,
+    pin_radius: f64,
+    mu: f64,
+    height: f64,
+}
+
+/// Friction is no cause: without it there is no impact either.
+#[test]
+fn what_is_driven_into_a_contact_is_not_blamed_on_friction() {
+    let scene = DrivenCrank {
+        mass: 3.0,
+        rate: 1.6,
+        arm: 0.5,
+        pin_radius: 0.02,
+        mu: 0.3,
+        height: 0.3,
+    };
+    let failure = Simulation::new(&scene)
+        .run(scene.at(DrivenCrank::LEVEL), 0.0..2.0)
+        .expect_err("no impact");
+    let Error::NoImpact { time, friction, .. } = failure.error else {
+        panic!("{failure}")
+    };
+    agree("time", time, 0.6_f64.asin() / scene.rate, 1e-10);
+    assert!(!friction);
+    let told = failure.to_string();
+    assert!(told.contains("something may be driven into it"), "{told}");
+}
+
 /// A point held at the origin by a condition that is a square.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(

@@ -28,7 +28,7 @@ use crate::arithmetic::{Scalar, epsilon};
 use crate::dynamics::Dynamics;
 use crate::error::Error;
 use crate::system::{Description, Impacts};
-use collision::Collision;
+use collision::{Collision, FrictionRow};
 use gather::Gathering;
 use law::Law;
 use pattern::length;
@@ -151,13 +151,15 @@ impl<T: Scalar> Collider<T> {
         match solved {
             Ok(()) => {}
             Err(Stuck::Unsolved(k)) => {
+                let tried = self.law.search.tried;
+                let together = impacts == Impacts::Together && near.len() > 1;
                 return Err(Error::NoImpact {
                     time: t,
                     mode: dynamics.mode().display(d).to_string(),
                     item: contact(k),
-                    tried: self.law.search.tried,
-                    friction: dynamics.has_frictions(),
-                    several: impacts == Impacts::Together && near.len() > 1,
+                    tried,
+                    together: collected && together && self.solve_rows(Impacts::InTurn).is_ok(),
+                    friction: collected && self.is_solved_without_friction(impacts),
                 });
             }
             Err(Stuck::Endless(k)) => {
@@ -192,6 +194,16 @@ impl<T: Scalar> Collider<T> {
             Impacts::InTurn => turns.solve(collision, law),
             Impacts::Together => turns.solve_groups(collision, law),
         }
+    }
+
+    /// Whether the impact has a solution if nothing rubs.
+    fn is_solved_without_friction(&mut self, impacts: Impacts) -> bool {
+        let rubs = &mut self.collision.rubs;
+        let rough = rubs.iter().any(FrictionRow::is_rough);
+        for rub in rubs {
+            (rub.stick, rub.slide) = (T::zero(), T::zero());
+        }
+        rough && self.solve_rows(impacts).is_ok()
     }
 
     fn write_outcome(&mut self, d: &Description, v: &[T]) {
