@@ -46,10 +46,13 @@ impl Elaboration<'_> {
                 _ => "2 arguments",
             };
             self.arity(name, arguments, function.arity()..=function.arity(), takes)?;
-            let arguments = self.scalars(arguments, context)?;
-            let arguments: Vec<ExprId> = (arguments.into_iter())
-                .map(|argument| self.zero_or_not(argument))
-                .collect();
+            let mut arguments = self.scalars(arguments, context)?;
+            // The others have a value at 0.
+            if matches!(function, Function::Ln | Function::Atan2) {
+                for argument in &mut arguments {
+                    *argument = self.zero_or_not(*argument);
+                }
+            }
             if !self.has_value(text, &arguments) {
                 self.sink.report(Code::NoValue, expr.extent, &[expr]);
                 return None;

@@ -2,7 +2,7 @@
 
 use super::Prime;
 
-/// cos α + i sin α
+/// cos α + i sin α; on the way to one, a number of any length.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Turn {
     pub cos: u64,
@@ -12,13 +12,13 @@ pub(super) struct Turn {
 impl Turn {
     pub const NONE: Turn = Turn { cos: 1, sin: 0 };
 
-    /// ((1 − t²) + 2 t i)/(1 + t²): every point of the circle but −1. 1 + t² is never 0, since −1 is no square.
-    pub fn parametrized(field: Prime, t: u64) -> Turn {
-        let square = field.mul(t, t);
-        let below = field.inverse(field.add(1, square)).unwrap_or(1);
+    /// The turn by twice the angle of a + b i, which may have any length but 0: that is a² + b² ≠ 0, since −1 is no square.
+    pub fn twice(field: Prime, Turn { cos: a, sin: b }: Turn) -> Turn {
+        let [aa, ab, bb] = [(a, a), (a, b), (b, b)].map(|(x, y)| field.mul(x, y));
+        let below = field.inverse(field.add(aa, bb)).unwrap_or(1);
         Turn {
-            cos: field.mul(field.sub(1, square), below),
-            sin: field.mul(field.add(t, t), below),
+            cos: field.mul(field.sub(aa, bb), below),
+            sin: field.mul(field.add(ab, ab), below),
         }
     }
 

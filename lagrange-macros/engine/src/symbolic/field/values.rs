@@ -271,23 +271,26 @@ impl Values<'_> {
 
     fn turn(&self, u: ExprId, point: &Point) -> Result<Turn, Trouble> {
         let field = point.field;
-        let atom = |key: u64| Turn::parametrized(field, point.random(TURN, key));
+        // Half of each angle, which needs no division.
+        let half = |key: u64| Turn {
+            cos: 1,
+            sin: point.random(TURN, key),
+        };
         let (constant, terms) = self.whole(u, point)?;
-        let mut turn = atom(1).times(field, constant);
+        let mut halves = half(1).times(field, constant);
+        let mut of_pi_only = Turn::NONE;
         for (term, c, n) in terms {
-            let part = if matches!(self.pool.node(term), Node::Pi) {
-                of_pi(field, c)?
-            } else {
-                let (key, negative) = unsigned(field, self.at(term)?);
+            if matches!(self.pool.node(term), Node::Pi) {
+                of_pi_only = of_pi_only.and(field, of_pi(field, c)?);
+                continue;
+            }
+            let (key, negative) = unsigned(field, self.at(term)?);
+            if key != 0 {
                 let n = if negative { -n } else { n };
-                if key == 0 {
-                    continue;
-                }
-                atom(key).times(field, n)
-            };
-            turn = turn.and(field, part);
+                halves = halves.and(field, half(key).times(field, n));
+            }
         }
-        Ok(turn)
+        Ok(Turn::twice(field, halves).and(field, of_pi_only))
     }
 
     fn growth(&self, u: ExprId, point: &Point) -> FieldValue {
