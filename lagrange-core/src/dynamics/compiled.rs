@@ -183,6 +183,8 @@ impl<T: Scalar> Compiled<T> {
     /// Undoes [`Self::refuse_functions`]: one motion must not depend on those before it.
     pub(super) fn restart(&mut self) {
         self.refused = false;
+        // Other factors are those of the rows that were not set aside.
+        self.factored &= self.solver.is_direct();
         self.solver.forget_rows_aside();
     }
 

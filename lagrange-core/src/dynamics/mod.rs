@@ -497,6 +497,14 @@ impl<T: Scalar> Dynamics<T> {
         terms.sum()
     }
 
+    /// a v of a row with these velocities, at the last value: its rate, but for what moves by itself.
+    pub(crate) fn speed_along(&self, row: usize, v: &[T]) -> T {
+        let terms = self.description().rows[row].jacobian.iter();
+        terms.fold(T::zero(), |sum, &(j, place)| {
+            sum + self.motion(place) * v[j]
+        })
+    }
+
     /// A number of the report at the last [`Self::report_value`]. Its need must have been held.
     #[inline]
     #[doc(hidden)]

@@ -4,7 +4,7 @@
 //! principle; Lanczos 1970, section III.1): only rheonomic rows and slips are asked for their forces.
 
 use super::sampler::{Sampler, branches_of_outputs, report_needs, unless_left_out};
-use super::{Instant, Segment, State, Trajectory};
+use super::{Event, Instant, Segment, State, Trajectory};
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::effects::Item;
@@ -217,6 +217,20 @@ impl<'a, T: Scalar> EnergyMeter<'a, T> {
         })
     }
 
+    /// Works of the impulses of an impact in constraints that move by themselves, (row, J): before and after it these have one speed.
+    pub(super) fn works_of_impulses(&mut self, event: &Event<T>) -> Vec<(usize, f64)> {
+        self.enter(&event.after);
+        let State { q, v, .. } = &event.state_after;
+        let dynamics = &mut self.sampler.dynamics;
+        dynamics.tape(event.time, q, v);
+        let d = dynamics.description();
+        let rows = d.constraints.iter().map(|constraint| constraint.row);
+        let moving = rows.filter(|&row| d.rows[row].rheonomic);
+        let struck = moving.filter(|&row| event.impulses.get(row).is_some_and(|x| !x.is_zero()));
+        let work = |row: usize| (event.impulses[row] * dynamics.speed_along(row, v)).value();
+        struck.map(|row| (row, work(row))).collect()
+    }
+
     /// Whether anything can give or take energy in a segment.
     pub(super) fn works(&mut self, index: usize) -> bool {
         self.enter_segment(index);
@@ -236,11 +250,7 @@ impl<'a, T: Scalar> EnergyMeter<'a, T> {
         if working.solved || working.undecided {
             let forces = sampler.evaluate_entered(time, mode, &state)?.forces;
             for &row in &working.rows {
-                let jacobian = d.rows[row].jacobian.iter();
-                let speed = jacobian.fold(T::zero(), |sum, &(j, place)| {
-                    sum + sampler.dynamics.motion(place) * state.v[j]
-                });
-                out[loads + row] = forces[row] * speed;
+                out[loads + row] = forces[row] * sampler.dynamics.speed_along(row, &state.v);
             }
         } else {
             sampler.dynamics.report_of_state(time, &state.q, &state.v);

@@ -2,7 +2,8 @@
 //!
 //! The Jacobi integral h = v·∂L/∂v − L (the energy, where neither L nor the constraints contain time) obeys
 //! dh/dt = Σ Q·v − ∂L/∂t (Goldstein, Poole & Safko 2002, section 2.7). Each power is integrated over the stored step
-//! polynomials by Gauss–Legendre quadrature; impacts add their jumps. What is left over is the closure error.
+//! polynomials by Gauss–Legendre quadrature; impacts add their jumps, of which what drives on through
+//! them has its share. What is left over is the closure error.
 
 use super::energy::{Energies, EnergyMeter};
 use super::{EventKind, State, Trajectory};
@@ -114,7 +115,7 @@ impl<'a, T: Scalar> Books<'a, T> {
         tell(trajectory, trajectory.first_time);
         let mut meter = EnergyMeter::new(trajectory);
         let (mut booked, entries) = items(trajectory.description());
-        let jumps = jumps(trajectory, &mut meter, &mut booked)?;
+        let jumps = jumps(trajectory, &mut meter, (&mut booked, &entries))?;
         let mode = trajectory.segments.first().map_or(0, |s| s.mode);
         let mode = &trajectory.modes[mode];
         let start = meter.energies(trajectory.first_time, mode, &trajectory.start)?;
@@ -259,9 +260,10 @@ fn kind(d: &Description, row: usize) -> &'static str {
 fn jumps<T: Scalar>(
     trajectory: &Trajectory<T>,
     meter: &mut EnergyMeter<'_, T>,
-    work: &mut Vec<Entry>,
+    (work, entries): (&mut Vec<Entry>, &[usize]),
 ) -> Result<Vec<(f64, usize, f64)>, Error> {
     let d = trajectory.description();
+    let loads = d.forces.len() + d.dissipations.len();
     let mut jumps = Vec::new();
     let time = work.iter().position(|e| e.kind == "time");
     let mode_of = |mode: &Mode| {
@@ -299,6 +301,14 @@ fn jumps<T: Scalar>(
         // What an impact moves may be on another side of its conditions.
         let before = meter.energies(began, mode_of(&event.before), from)?;
         let after = meter.energies(event.time, mode_of(&event.after), to)?;
+        // What drives on through an impact works in it as well.
+        let mut energy = (after.jacobi - before.jacobi).value();
+        if event.kind == EventKind::Impact {
+            for (row, driven) in meter.works_of_impulses(event) {
+                energy -= driven;
+                jumps.push((event.time.value(), entries[loads + row], driven));
+            }
+        }
         let name = event.subject.name(d);
         let known = work
             .iter()
@@ -311,11 +321,7 @@ fn jumps<T: Scalar>(
                 work: 0.0,
             });
         }
-        jumps.push((
-            event.time.value(),
-            entry,
-            (after.jacobi - before.jacobi).value(),
-        ));
+        jumps.push((event.time.value(), entry, energy));
     }
     Ok(jumps)
 }

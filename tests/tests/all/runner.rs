@@ -456,3 +456,39 @@ fn the_last_phase_ends_with_the_run() {
         assert!(run.sampler().at(until).is_ok());
     }
 }
+
+/// A cam at a given speed and its follower: all accelerations are prescribed. Where an inertia is left out, their equations are solved by factors that stay
+/// from one run to the next.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(turn, lift),
+    kinetic(of_cam: inertia/2 * der(turn)^2),
+    kinetic(of_follower: mass/2 * der(lift)^2),
+    constraint(motor: turn == t),
+    constraint(cam: lift == cos(turn)),
+    start(running: der(turn) = 1, lift = 1),
+)]
+struct Cam {
+    inertia: f64,
+    mass: f64,
+}
+
+#[test]
+fn what_is_prescribed_runs_again() {
+    let scene = Cam {
+        inertia: 1.0,
+        mass: 1.0,
+    };
+    for effects in [
+        Effects::all(),
+        Effects::all().without(Cam::OF_CAM),
+        Effects::all().without(Cam::OF_FOLLOWER),
+    ] {
+        let mut runner = Simulation::new(&scene).effects(effects).runner();
+        for _ in 0..3 {
+            let run = runner.run(&scene.at(Cam::RUNNING), 0.0..1.0);
+            let end = run.expect("a run").final_state();
+            agree("lift", end.q[1], 1.0_f64.cos(), 1e-9);
+        }
+    }
+}

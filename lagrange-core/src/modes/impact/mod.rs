@@ -295,14 +295,11 @@ impl<T: Scalar> Collider<T> {
             size += after.abs() + before.abs();
         }
         // A row a v + b does −b Λ.
-        for (row, impulse) in d.rows.iter().zip(&self.outcome.impulses) {
+        for (row, impulse) in self.outcome.impulses.iter().enumerate() {
             if impulse.is_zero() {
                 continue;
             }
-            let along: T = row.jacobian.iter().fold(T::zero(), |sum, &(j, place)| {
-                sum + dynamics.motion(place) * v[j]
-            });
-            let own = dynamics.motion(row.velocity) - along;
+            let own = dynamics.motion(d.rows[row].velocity) - dynamics.speed_along(row, v);
             gain += (own * *impulse).value();
             size += (own * *impulse).value().abs();
         }

@@ -97,6 +97,7 @@ mod pressed;
 mod pulled_plate;
 mod pulses;
 mod quaternion;
+mod racket;
 mod rebounds;
 mod region;
 mod reversed_belts;
