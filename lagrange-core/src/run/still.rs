@@ -35,6 +35,17 @@ pub(super) struct StillWatches {
     terms: Vec<Guard>,
 }
 
+/// How the rows of a mode hold a coordinate.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Held {
+    /// They leave it some of its direction.
+    Free,
+    /// At rest, whatever the others do.
+    AtRest,
+    /// At a velocity that they give it.
+    Driven,
+}
+
 impl StillWatches {
     pub(super) fn new() -> Self {
         Self {
@@ -132,34 +143,35 @@ impl<T: Scalar> Run<T> {
         let n = resting.len();
         let here = self.stepper.scratch.clone();
         let changed = |x: T| x + T::from_f64(OTHERWISE * (1.0 + x.value().abs()));
+        let zero = vec![T::zero(); n];
         self.ask_for_all_rows();
         let (t, later) = (self.now.t, changed(self.now.t));
-        self.dynamics.tape(t, &here.q, &here.v);
-        let free = self.free_shares();
-        let held: Vec<bool> = (0..n).map(|j| resting[j] && free[j] <= HELD).collect();
-        if !held.contains(&true) {
-            return Vec::new();
-        }
-        let mut there = here.clone();
-        for j in (0..n).filter(|&j| !held[j]) {
-            there.q[j] = changed(here.q[j]);
-            there.v[j] = changed(here.v[j]);
-        }
-        let zero = vec![T::zero(); n];
-        self.dynamics.tape(later, &there.q, &zero);
-        let driven = self.dynamics.acting_rows().iter().any(|&row| {
-            let velocity = self.description().rows[row].velocity;
-            self.dynamics.motion(velocity).value() != 0.0
-        });
-        // At its turning point a coordinate is held for an instant.
-        let beside = self.free_shares();
-        let turns = held
-            .iter()
-            .zip(beside)
-            .any(|(held, free)| *held && free > HELD);
-        if driven || turns {
-            return Vec::new();
-        }
+        self.dynamics.tape(t, &here.q, &zero);
+        let now = self.held_by_rows();
+        let mut held: Vec<bool> = (0..n)
+            .map(|j| resting[j] && now[j] == Held::AtRest)
+            .collect();
+        let there = loop {
+            if !held.contains(&true) {
+                return Vec::new();
+            }
+            let mut there = here.clone();
+            for j in (0..n).filter(|&j| !held[j]) {
+                there.q[j] = changed(here.q[j]);
+                there.v[j] = changed(here.v[j]);
+            }
+            self.dynamics.tape(later, &there.q, &zero);
+            let beside = self.held_by_rows();
+            // At its turning point a coordinate is held for an instant.
+            if (0..n).any(|j| held[j] && beside[j] == Held::Free) {
+                return Vec::new();
+            }
+            if (0..n).all(|j| !held[j] || beside[j] == Held::AtRest) {
+                break there;
+            }
+            // What is driven may be at rest for an instant.
+            (0..n).for_each(|j| held[j] &= beside[j] == Held::AtRest);
+        };
         let [before, after] = [(t, &here), (later, &there)].map(|(t, state)| {
             let known = self.dynamics.value(t, &state.q, &state.v);
             known.is_ok().then(|| {
@@ -179,9 +191,9 @@ impl<T: Scalar> Run<T> {
             .collect()
     }
 
-    /// Per coordinate: what the rows of the mode leave of its direction, squared, in the metric of the diagonal of the mass matrix (Gram and Schmidt); `dynamics`
-    /// holds the numbers of all rows.
-    fn free_shares(&self) -> Vec<f64> {
+    /// How the rows of the mode hold each coordinate: what they leave of its direction, squared, in the metric of the diagonal of the mass matrix (Gram and
+    /// Schmidt), and the velocity that they give it; `dynamics` holds the numbers of all rows at velocities that are zero.
+    fn held_by_rows(&self) -> Vec<Held> {
         let d = self.description();
         let n = d.coordinates.len();
         let mut scales = vec![1.0; n];
@@ -192,28 +204,45 @@ impl<T: Scalar> Run<T> {
             }
         }
         let mut free = vec![1.0; n];
-        let mut basis: Vec<Vec<f64>> = Vec::new();
+        // The velocity of least norm, and the sum of its parts without their signs.
+        let mut given = vec![(0.0_f64, 0.0_f64); n];
+        let mut basis: Vec<(Vec<f64>, f64)> = Vec::new();
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         for &row in self.dynamics.acting_rows() {
             let mut along = vec![0.0; n];
             for &(j, place) in d.rows[row].jacobian {
                 along[j] = self.dynamics.motion(place).value() * scales[j];
             }
+            let mut rate = self.dynamics.motion(d.rows[row].velocity).value();
             let whole = dot(&along, &along);
-            for other in basis.iter().chain(&basis) {
+            for (other, of_other) in basis.iter().chain(&basis) {
                 let share = dot(&along, other);
                 along
                     .iter_mut()
                     .zip(other)
                     .for_each(|(x, y)| *x -= share * y);
+                rate -= share * of_other;
             }
             let left = dot(&along, &along);
             if left > DEPENDENT * whole {
                 along.iter_mut().for_each(|x| *x /= left.sqrt());
-                free.iter_mut().zip(&along).for_each(|(f, x)| *f -= x * x);
-                basis.push(along);
+                rate /= left.sqrt();
+                for ((free, given), x) in free.iter_mut().zip(&mut given).zip(&along) {
+                    *free -= x * x;
+                    *given = (given.0 + rate * x, given.1 + (rate * x).abs());
+                }
+                basis.push((along, rate));
             }
         }
-        free
+        let held = free.iter().zip(given).map(|(&free, (velocity, size))| {
+            if free > HELD {
+                Held::Free
+            } else if velocity.abs() > AT_REST * size {
+                Held::Driven
+            } else {
+                Held::AtRest
+            }
+        });
+        held.collect()
     }
 }
