@@ -122,3 +122,50 @@ fn what_an_impact_ends_has_ended() {
         }
     }
 }
+
+/// A body that friction holds on curved ground under a force that swings, and a crank that is turned to and fro beside it.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, crank),
+    kinetic = (der(x)^2 + der(y)^2 + der(crank)^2)/2,
+    potential = 9.81*y,
+    contact(ground: y >= sin(x)/5),
+    friction(rub on ground: slip = der(x) + cos(x)/5*der(y), static = 0.9),
+    constraint(turn: crank == cos(rate*t + phase)),
+    force(push: small*sin(5*t) along der(x)),
+    mark(turns: der(x)),
+    mark(cranks: der(crank)),
+    stop(slides: der(x) >= 0),
+)]
+struct BesideCrank {
+    rate: f64,
+    phase: f64,
+    small: f64,
+}
+
+/// Nothing of the body turns or slides, whatever is driven elsewhere, and whether that stands at its dead centre as the run begins.
+#[test]
+fn what_is_driven_elsewhere_moves_nothing_that_is_held() {
+    for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+        let mut random = Random::new(65);
+        for k in 0..6 {
+            let scene = BesideCrank {
+                rate: random.between(1.0, 5.0),
+                phase: if k % 2 == 0 { 0.0 } else { 1.0 },
+                small: random.between(0.1, 2.0),
+            };
+            let x = random.between(0.1, 0.5);
+            let turning = -scene.rate * scene.phase.sin();
+            let start = state(&[x, x.sin() / 5.0, scene.phase.cos()], &[0.0, 0.0, turning]);
+            let run = run_by(&scene, (method, tolerance), start, 5.0);
+            let asked = format!("{method} {tolerance:e}, {k}: {:?}", words(&run));
+            assert_eq!(run.last_time(), 5.0, "{asked}");
+            assert_eq!(times(&run, "turns", "mark").len(), 0, "{asked}");
+            // The crank turns wherever its phase is a multiple of π, but for the start.
+            let turns = (scene.rate * 5.0 + scene.phase) / core::f64::consts::PI;
+            let turned = times(&run, "cranks", "mark").len();
+            assert_eq!(turned, turns as usize, "{asked}");
+            certified(asked, &run);
+        }
+    }
+}
