@@ -200,6 +200,7 @@ impl<T: Scalar> Run<T> {
                 at = at.min(s);
             }
         }
+        self.meet_edges(at);
         self.hit_at_edge(at);
         let guards = if self.locator.fallen.is_empty() {
             self.locator.rests.clear();

@@ -192,6 +192,35 @@ impl<T: Scalar> Run<T> {
         there - read(self) < -SOON * SOON * extent
     }
 
+    /// One surface begins where another one ends, although their edges are located a little apart: rounding tells `x` from `x*(length - x)`.
+    pub(super) fn meet_edges(&mut self, end: f64) {
+        if !self.is_at_edge() {
+            return;
+        }
+        let mut fallen = core::mem::take(&mut self.locator.fallen);
+        let polynomials = &self.locator.polynomials;
+        for (edge, curve) in polynomials.of_mode() {
+            let Guard::Region(c) = edge else {
+                continue;
+            };
+            let (distance, slope) = (value(curve, end).abs(), slope(curve, end));
+            let crosses = match polynomials.of(Guard::Gap(c)) {
+                _ if self.now.mode.contacts[c] => slope < 0.0,
+                Some(gap) => slope > 0.0 && value(gap, end).abs() <= self.touching(c),
+                None => false,
+            };
+            if crosses
+                && distance <= self.blur(edge, curve, distance)
+                && !fallen.contains(&edge)
+                && !self.is_held_at(edge, end)
+                && !self.stays_at_edge(edge, curve)
+            {
+                fallen.push(edge);
+            }
+        }
+        self.locator.fallen = fallen;
+    }
+
     /// What is hit where a surface ends, to rounding, is hit there: the floor of a room ends at its walls.
     pub(super) fn hit_at_edge(&mut self, end: f64) {
         let closed = |guard: &Guard| {
@@ -246,7 +275,8 @@ impl<T: Scalar> Run<T> {
             let number = |place: ValueRef| self.dynamics.motion(place).value();
             let gap = number(d.rows[contact.row].position.unwrap_or(ValueRef::Zero));
             let small = self.touching(c);
-            if gap.abs() <= small && number(region) >= -small {
+            let at_edge = self.locator.fallen.contains(&Guard::Region(c));
+            if gap.abs() <= small && (at_edge || number(region) >= -small) {
                 self.switcher.status.facts.touching[c] = true;
                 self.switcher.status.facts.arriving[c] = true;
                 self.locator.entered.push(c);
