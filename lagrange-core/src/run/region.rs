@@ -209,8 +209,10 @@ impl<T: Scalar> Run<T> {
                 Some(gap) => slope > 0.0 && value(gap, end).abs() <= self.touching(c),
                 None => false,
             };
+            // Polynomials are cut off where the tolerance allows it, and edges of surfaces that were entered are lowered by as much.
+            let off = (2.0 * self.touching(c)).min(SOON * slope.abs());
             if crosses
-                && distance <= self.blur(edge, curve, distance)
+                && distance <= self.blur(edge, curve, distance).max(off)
                 && !fallen.contains(&edge)
                 && !self.is_held_at(edge, end)
                 && !self.stays_at_edge(edge, curve)
