@@ -35,6 +35,8 @@ struct Run {
     #[serde(skip_serializing_if = "Option::is_none")]
     space: Option<Stage>,
     plots: Vec<Plot>,
+    /// Plots of forces for which there is no room.
+    left_out: usize,
     phase: Vec<Portrait>,
     outputs: Vec<Output>,
 }
@@ -95,6 +97,7 @@ fn run(
         time: significant(event.time),
         text: format!("{} {}", event.subject.name(description), event.kind.word()),
     });
+    let (plots, left_out) = plots(&shown.film);
     Run {
         title: shown.title.clone(),
         scene: outcome.scene,
@@ -104,7 +107,8 @@ fn run(
         events: events.collect(),
         picture,
         space,
-        plots: plots(&shown.film),
+        plots,
+        left_out,
         phase: portraits(outcome, first.map(|film| &film.outcome)),
         outputs: outputs(outcome),
     }
