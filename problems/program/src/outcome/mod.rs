@@ -5,11 +5,13 @@ pub(crate) mod pieces;
 pub(crate) mod rounding;
 mod sampling;
 
+use crate::report::significant;
 use crate::request::Request;
 use crate::request::event::event;
 use core::ops::Range;
 use lagrange_core::__private::places::Normal;
 use lagrange_core::certificate::Certificate;
+use lagrange_core::error::Shortest;
 use lagrange_core::mode::{FrictionMode, Mode};
 use lagrange_core::prelude::*;
 use lagrange_core::simulation::Awaited;
@@ -353,17 +355,18 @@ impl Outcome {
     /// When steps were bounded by stability, and what that means, if they were.
     pub fn stiffness(&self) -> Option<String> {
         let (first, last) = (self.stiff.first()?, self.stiff.last()?);
+        let told = |time: f64| Shortest(significant(time));
         let when = match self.stiff.len() {
-            1 => format!("From t = {:.3e} s", first.start),
-            many => format!("{many} times from t = {:.3e} s", first.start),
+            1 => format!("From t = {} s", told(first.start)),
+            many => format!("{many} times from t = {} s", told(first.start)),
         };
         let what = match self.method {
             Method::Auto => "Radau has made the steps",
             _ => "the methods auto and radau5 make far longer ones",
         };
         Some(format!(
-            "{when} to {:.3e} s steps were bounded by stability, not by accuracy (the system is stiff there): {what}.",
-            last.end
+            "{when} to {} s steps were bounded by stability, not by accuracy (the system is stiff there): {what}.",
+            told(last.end)
         ))
     }
 

@@ -84,12 +84,15 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
         writeln!(out, "\n{}", energy.trim_fmt())?;
         writeln!(
             out,
-            "The ledger{} closes to {:.1e} of its scale, {}{}{unit}.",
+            "The ledger{} closes to {} of its scale, {}{}{unit}.",
             match ledger.has_own_jacobi() {
                 true => " of the Jacobi integral",
                 false => "",
             },
-            ledger.closure.abs() / ledger.scale.max(f64::MIN_POSITIVE),
+            match ledger.closure.abs() / ledger.scale.max(f64::MIN_POSITIVE) {
+                0.0 => "0".to_owned(),
+                part => format!("{part:.1e}"),
+            },
             Decimals::of([ledger.scale]).show(ledger.scale),
             if unit.is_empty() { "" } else { " " }
         )?;
@@ -167,9 +170,11 @@ fn energy(ledger: &Ledger, unit: &str) -> (Table, usize) {
     }
     let works = ledger.work.iter().map(|entry| entry.work);
     let decimals = Decimals::of(lines.iter().flat_map(|(_, a, b)| [*a, *b]).chain(works));
-    // Whoever did nothing that the digits show is left out; friction is worth a line even then.
+    // Whoever did nothing that the digits show is left out; of few, friction is worth a line even then.
+    let frictions = ledger.work.iter().filter(|entry| entry.kind == "friction");
+    let few = frictions.count() <= FEW;
     let counts = |entry: &&Entry| {
-        entry.kind == "friction"
+        few && entry.kind == "friction"
             || decimals
                 .show(entry.work)
                 .contains(|digit| matches!(digit, '1'..='9'))
