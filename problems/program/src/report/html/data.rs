@@ -8,6 +8,7 @@ use crate::report::frames::{SPEEDS, span, usual_speed};
 use crate::report::picture::{Picture, Stage, pictures, stages};
 use crate::report::words::brief;
 use serde::Serialize;
+use std::num::NonZeroUsize;
 
 /// What the player of the page reads.
 #[derive(Serialize)]
@@ -36,7 +37,8 @@ struct Run {
     space: Option<Stage>,
     plots: Vec<Plot>,
     /// Plots of forces for which there is no room.
-    left_out: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    left_out: Option<NonZeroUsize>,
     phase: Vec<Portrait>,
     outputs: Vec<Output>,
 }
@@ -108,7 +110,7 @@ fn run(
         picture,
         space,
         plots,
-        left_out,
+        left_out: NonZeroUsize::new(left_out),
         phase: portraits(outcome, first.map(|film| &film.outcome)),
         outputs: outputs(outcome),
     }

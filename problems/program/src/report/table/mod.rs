@@ -311,6 +311,20 @@ mod tests {
         }
     }
 
+    /// A ball over ten steps, of which it meets the highest only; outputs are the ball's own coordinate and another one.
+    #[test]
+    fn a_story_shows_what_acts_and_what_is_observed_once() {
+        let lines = story(
+            "coordinates(y, far), kinetic = (der(y)^2 + der(far)^2) / 2, potential = 10 * y,
+             contact(step[k in 0..10]: y >= k - 9), observe(y, low = y - 1), start(up: y = 1), until = 1,",
+        );
+        assert_eq!(lines[0], "t event y far low step[9] mode", "{lines:#?}");
+        assert!(
+            lines.iter().all(|line| !line.contains("0.0e0")),
+            "{lines:#?}"
+        );
+    }
+
     /// Two equal springs: one is in the middle when the other is.
     #[test]
     fn what_is_rounding_at_every_event_is_shown_as_zero() {
