@@ -7,7 +7,7 @@ mod sampling;
 
 use crate::report::significant;
 use crate::request::Request;
-use crate::request::event::event;
+use crate::request::event::events;
 use core::ops::Range;
 use lagrange_core::__private::places::Normal;
 use lagrange_core::certificate::Certificate;
@@ -335,11 +335,12 @@ impl Outcome {
     /// What the run was to end after and what has not happened in all of its time, in words.
     pub fn never_came(&self) -> Option<String> {
         let is_missing = |name: &&String| {
-            let awaited = event(name, self.description).map(Awaited::from);
-            awaited.is_ok_and(|awaited| {
+            let came = |awaited: Awaited| {
                 let events = self.events.iter();
-                events.filter(|event| awaited.is(event)).count() < awaited.number
-            })
+                events.filter(|event| awaited.is(event)).count() >= awaited.number
+            };
+            let all = events(name, self.description);
+            all.is_ok_and(|all| !all.into_iter().map(Awaited::from).all(came))
         };
         let missing = self.end_after.iter().filter(is_missing);
         let missing: Vec<String> = missing.map(|name| format!("`{name}`")).collect();

@@ -7,7 +7,7 @@ use crate::notation::velocity_name;
 use crate::progress::Progress;
 use core::fmt;
 use core::ops::RangeInclusive;
-use event::event;
+use event::events;
 use lagrange_core::effects::Item;
 use lagrange_core::error::Shortest;
 use lagrange_core::prelude::*;
@@ -367,9 +367,10 @@ impl Request {
             simulation = simulation.max_events(limit);
         }
         for name in &self.end_after {
-            let event = event(name, system.description())?;
-            self.can_happen(name, event.0, system.description())?;
-            simulation = simulation.end_after(event);
+            for event in events(name, system.description())? {
+                self.can_happen(name, event.0, system.description())?;
+                simulation = simulation.end_after(event);
+            }
         }
         Ok(match &self.progress {
             Some(progress) => simulation.monitor(progress.monitor()),
