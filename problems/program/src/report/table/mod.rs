@@ -325,6 +325,18 @@ mod tests {
         );
     }
 
+    /// A force of 1e-17 N beside one of 10 N, and 1e-20 m beside 1 m.
+    #[test]
+    fn what_is_rounding_beside_its_unit_is_shown_as_zero() {
+        let lines = story(
+            "parameters(m: \"kg\" = 1, g: \"m/s^2\" = 10, p: \"N\" = 1e-17, near: \"m\" = 1e-20, far: \"m\" = 1), coordinates(x: \"m\", y: \"m\"),
+             kinetic = m/2 * (der(x)^2 + der(y)^2), potential = m * g * y + p * x,
+             constraint(shelf: y == far), constraint(wall: x == near), start(up: y = far, x = near), until = 1,",
+        );
+        let start = "0.000000 start 0.0000 1.0000 10.000 0.000 smooth";
+        assert!(lines.iter().any(|line| line == start), "{lines:#?}");
+    }
+
     /// Two equal springs: one is in the middle when the other is.
     #[test]
     fn what_is_rounding_at_every_event_is_shown_as_zero() {

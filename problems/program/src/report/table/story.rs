@@ -170,10 +170,12 @@ fn decimals_of_forces(items: &[Force], lines: &[Line], outcome: &Outcome) -> Vec
         let held = outcome.samples.iter().map(|sample| sample.held[item.row]);
         let whole = held.fold(of_all(&|other| other.source == item.source), f64::max);
         let beside = of_all(&|other| unit(other) == unit(item));
+        let whole = match whole < f64::EPSILON * beside {
+            true => beside,
+            false => whole,
+        };
         if largest[k] < outcome.tolerance * whole {
             Decimals::of([whole])
-        } else if largest[k] < f64::EPSILON * beside {
-            Decimals::of([beside])
         } else {
             Decimals::of(told(k))
         }
