@@ -8,8 +8,11 @@ use lagrange_core::prelude::Method;
 /// Distance counts insertions, deletions, substitutions and swaps of neighbours (Damerau 1964); up to a third of
 /// the letters may differ, but not all of them.
 ///
-/// A rate in another notation (`thetadot`, `dtheta`, `v_theta`, `theta'`) is near to `der(theta)`.
+/// A rate in another notation (`thetadot`, `dtheta`, `v_theta`, `theta'`) is near to `der(theta)`, and an array to its first element.
 pub fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
+    if let Some(element) = known.iter().find(|known| is_element(known, name)) {
+        return Some(element);
+    }
     if let Some(rate) = rate(name, known) {
         return Some(rate);
     }
@@ -20,6 +23,14 @@ pub fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
         .min_by_key(|candidate| distance(candidate))?;
     let longest = name.chars().count().max(best.chars().count());
     (distance(best) <= longest.div_ceil(3) && distance(best) < longest).then_some(best)
+}
+
+/// Whether `name` is an element of what is called `array`, as `x[1]` is of `x` and `der(x[1])` of `der(x)`.
+pub(crate) fn is_element(name: &str, array: &str) -> bool {
+    let parts = name.split_once('[').zip(name.rsplit_once(']'));
+    parts.is_some_and(|((before, _), (_, after))| {
+        array.strip_prefix(before).is_some_and(|rest| rest == after)
+    })
 }
 
 /// The known rate that is meant by a name in another notation.
@@ -98,6 +109,13 @@ mod tests {
         assert_eq!(nearest("pendulum", &known), None);
         assert_eq!(nearest("x", &[]), None);
         assert_eq!(nearest("x", &["t"]), None);
+    }
+
+    #[test]
+    fn an_array_means_its_first_element() {
+        let known = ["ul", "up[0]", "up[1]", "der(up[0])"];
+        assert_eq!(nearest("up", &known), Some("up[0]"));
+        assert_eq!(nearest("der(up)", &known), Some("der(up[0])"));
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! What of a run can be drawn, by name: `t`, a coordinate `theta`, its rate `der(theta)`, a force, `|grip|`, what a friction can
 //! hold `limit(grip)`, an output, `kinetic`, `potential`, `energy`.
 
+use crate::names::{is_element, nearest};
 use crate::notation::{is_angle, rate_unit, symbol, velocity_name};
 use crate::outcome::{Force, Outcome, Sample, Source, forces};
 use crate::request::Refusal;
@@ -56,17 +57,31 @@ impl Quantity {
         all
     }
 
+    /// What `name` means, blanks ignored: a quantity, or all elements of an array.
+    fn find(name: &str, d: &Description) -> Result<Vec<Self>, Refusal> {
+        let plain = plain(name);
+        let all = Self::all(d);
+        let elements = all.iter().filter(|(known, _)| is_element(known, &plain));
+        let elements: Vec<Self> = elements.map(|(_, quantity)| quantity.clone()).collect();
+        match elements.is_empty() || all.iter().any(|(known, _)| *known == plain) {
+            true => Self::one(name, d).map(|one| vec![one]),
+            false => Ok(elements),
+        }
+    }
+
     /// The one called `name`, blanks ignored.
-    pub(crate) fn find(name: &str, d: &Description) -> Result<Self, Refusal> {
-        let plain: String = name.chars().filter(|c| !c.is_whitespace()).collect();
+    fn one(name: &str, d: &Description) -> Result<Self, Refusal> {
+        let plain = plain(name);
         let all = Self::all(d);
         let found = all.iter().find(|(known, _)| *known == plain);
         found.map(|(_, quantity)| quantity.clone()).ok_or_else(|| {
-            Refusal::unknown(
-                "quantity",
-                name.trim(),
-                all.iter().map(|(known, _)| known.as_str()),
-            )
+            let known: Vec<&str> = all.iter().map(|(known, _)| known.as_str()).collect();
+            let is_force = d.forces.iter().any(|force| force.name == plain);
+            let is_formula = plain.contains(['(', '+', '*', '/', '^']);
+            match is_force || is_formula && nearest(&plain, &known).is_none() {
+                true => Refusal::NoQuantity { name: plain },
+                false => Refusal::unknown("quantity", name.trim(), known.into_iter()),
+            }
         })
     }
 
@@ -184,6 +199,11 @@ impl Quantity {
     }
 }
 
+/// A name without blanks.
+fn plain(name: &str) -> String {
+    name.chars().filter(|c| !c.is_whitespace()).collect()
+}
+
 /// What a multiplier of this unit is called on an axis.
 pub(crate) fn force_word(unit: &str) -> &'static str {
     match unit {
@@ -216,9 +236,10 @@ impl Show {
     pub fn new(text: &str, d: &Description) -> Result<Self, Refusal> {
         let (curves, over) = text.split_once(" vs ").unwrap_or((text, "t"));
         let curves = curves.split(',').map(|name| Quantity::find(name, d));
+        let curves: Vec<Vec<Quantity>> = curves.collect::<Result<_, _>>()?;
         Ok(Self {
-            curves: curves.collect::<Result<_, _>>()?,
-            over: Quantity::find(over, d)?,
+            curves: curves.concat(),
+            over: Quantity::one(over, d)?,
         })
     }
 }

@@ -49,7 +49,7 @@ table! {
     ChainedComparison "E014" "comparisons do not chain" "{0}";
     WrongRelation "E015" "`{0}` does not make a {1}" "{2}";
     UnknownPart "E016" "`{0}` is not a part of `{1}`" "{2}";
-    RepeatedPart "E017" "`{0}` is given twice" "keep one";
+    RepeatedPart "E017" "`{0}` is given twice" "{1}";
     MissingPart "E018" "`{0}` has no {1}" "add `{2}`";
     Later "E019" "`{0}` comes with a later version" "{1}";
     InclusiveRange "E020" "ranges are half open" "write `a..b`, which leaves `b` out";

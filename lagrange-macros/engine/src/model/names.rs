@@ -126,6 +126,9 @@ impl Elaboration<'_> {
         if text == "e" {
             return "powers of Euler's number are written `exp(…)`".to_string();
         }
+        if text == "time" {
+            return "time is written `t`".to_string();
+        }
         let mut letters = text.chars();
         if let (Some(letter), None) = (letters.next(), letters.next())
             && let Some(word) = spelt(letter)

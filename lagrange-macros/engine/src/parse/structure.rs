@@ -154,7 +154,7 @@ fn field_attribute(part: &mut Cursor, field: &mut Field, sink: &mut Diagnostics)
         _ => !field.letter.is_empty(),
     };
     if given {
-        sink.report(Code::RepeatedPart, &key, &[&key.text]);
+        sink.report(Code::RepeatedPart, &key, &[&key.text, &"keep one"]);
     }
     match key.text.as_str() {
         "tex" => field.tex = text,

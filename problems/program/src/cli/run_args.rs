@@ -66,7 +66,8 @@ pub(super) struct Motion {
     /// End of the run, s [default: the scene's].
     #[arg(long, value_name = "T", value_parser = positive, allow_hyphen_values = true)]
     until: Option<f64>,
-    /// End the run after an event ("rim lost", or "floor impact 5" for the fifth); if given several times, once all of them have happened.
+    /// End the run after an event ("rim lost", or "floor impact 5" for the fifth); if given several times or of an array, once all of them
+    /// have happened.
     /// After a mark it ends with the step that contains it.
     #[arg(long, value_name = "EVENT")]
     end_after: Vec<String>,

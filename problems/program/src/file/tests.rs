@@ -116,6 +116,10 @@ fn what_only_a_file_has_is_checked() {
             "1:12: `a` has no value; add `= 1` [E018]",
         ),
         (
+            format!("parameters(a [m] = 1), {rest}"),
+            "1:15: expected a number of elements, as in `[3]`, or a unit, as in `: \"m\"`, found `m` [E001]",
+        ),
+        (
             format!("parameters(a = b, b = 1), {rest}"),
             "1:16: expected a number, as `3`, `-1/2` or `2*pi` (what follows from other parameters is a `define`), found `b` [E001]",
         ),

@@ -5,11 +5,13 @@ pub(crate) mod pieces;
 pub(crate) mod rounding;
 mod sampling;
 
+use crate::report::significant;
 use crate::request::Request;
-use crate::request::event::event;
+use crate::request::event::events;
 use core::ops::Range;
 use lagrange_core::__private::places::Normal;
 use lagrange_core::certificate::Certificate;
+use lagrange_core::error::Shortest;
 use lagrange_core::mode::{FrictionMode, Mode};
 use lagrange_core::prelude::*;
 use lagrange_core::simulation::Awaited;
@@ -333,11 +335,12 @@ impl Outcome {
     /// What the run was to end after and what has not happened in all of its time, in words.
     pub fn never_came(&self) -> Option<String> {
         let is_missing = |name: &&String| {
-            let awaited = event(name, self.description).map(Awaited::from);
-            awaited.is_ok_and(|awaited| {
+            let came = |awaited: Awaited| {
                 let events = self.events.iter();
-                events.filter(|event| awaited.is(event)).count() < awaited.number
-            })
+                events.filter(|event| awaited.is(event)).count() >= awaited.number
+            };
+            let all = events(name, self.description);
+            all.is_ok_and(|all| !all.into_iter().map(Awaited::from).all(came))
         };
         let missing = self.end_after.iter().filter(is_missing);
         let missing: Vec<String> = missing.map(|name| format!("`{name}`")).collect();
@@ -353,17 +356,18 @@ impl Outcome {
     /// When steps were bounded by stability, and what that means, if they were.
     pub fn stiffness(&self) -> Option<String> {
         let (first, last) = (self.stiff.first()?, self.stiff.last()?);
+        let told = |time: f64| Shortest(significant(time));
         let when = match self.stiff.len() {
-            1 => format!("From t = {:.3e} s", first.start),
-            many => format!("{many} times from t = {:.3e} s", first.start),
+            1 => format!("From t = {} s", told(first.start)),
+            many => format!("{many} times from t = {} s", told(first.start)),
         };
         let what = match self.method {
             Method::Auto => "Radau has made the steps",
             _ => "the methods auto and radau5 make far longer ones",
         };
         Some(format!(
-            "{when} to {:.3e} s steps were bounded by stability, not by accuracy (the system is stiff there): {what}.",
-            last.end
+            "{when} to {} s steps were bounded by stability, not by accuracy (the system is stiff there): {what}.",
+            told(last.end)
         ))
     }
 

@@ -103,25 +103,46 @@ fn together(items: &[(&str, [&'static str; 2])], kind: &str, count: usize) -> Ve
             verbs.push(*verb);
         }
     }
-    let say = |[one, several]: &[&str; 2]| {
-        let names: Vec<&str> = items
-            .iter()
-            .filter(|(_, [verb, _])| verb == one)
-            .map(|(name, _)| *name)
-            .collect();
-        match names.as_slice() {
-            all if all.len() == count && all.len() >= MANY => {
-                format!("all {} {kind} {several}", all.len())
-            }
-            many if many.len() > MANY => {
-                format!("{} of {count} {kind} {several}", many.len())
-            }
-            [name] => format!("{name} {one}"),
-            [first @ .., last] => format!("{} and {last} {several}", first.join(", ")),
-            [] => String::new(),
+    let groups = verbs.iter().map(|[one, several]| {
+        let names = items.iter().filter(|(_, [verb, _])| verb == one);
+        let names: Vec<&str> = names.map(|(name, _)| *name).collect();
+        (names, *one, *several)
+    });
+    let groups: Vec<(Vec<&str>, &str, &str)> = groups.collect();
+    // With all but the names of one group, no two modes are called alike.
+    let most = groups.iter().map(|(names, ..)| names.len()).max();
+    let untold = groups
+        .iter()
+        .position(|(names, ..)| Some(names.len()) == most);
+    let say = |(i, (names, one, several)): (usize, &(Vec<&str>, &str, &str))| match names.as_slice()
+    {
+        all if all.len() == count && all.len() >= MANY => {
+            format!("all {} {kind} {several}", all.len())
         }
+        many if many.len() > MANY && Some(i) == untold => {
+            format!("{} of {count} {kind} {several}", many.len())
+        }
+        many if many.len() > MANY => format!("{} {several}", ranges(many)),
+        [name] => format!("{name} {one}"),
+        [first @ .., last] => format!("{} and {last} {several}", first.join(", ")),
+        [] => String::new(),
     };
-    verbs.iter().map(say).collect()
+    groups.iter().enumerate().map(say).collect()
+}
+
+/// Names of which those that follow each other in an array are told as a range: `floor[2..6], hit[0]`.
+fn ranges(names: &[&str]) -> String {
+    let place = |name: &str| {
+        let (array, index) = name.strip_suffix(']')?.rsplit_once('[')?;
+        Some((array.to_owned(), index.parse::<usize>().ok()?))
+    };
+    let next = |name: &str| place(name).map(|(array, index)| (array, index + 1));
+    let runs = names.chunk_by(|a, b| place(b).is_some() && next(a) == place(b));
+    let told = runs.map(|run| match place(run[0]) {
+        Some((array, first)) if run.len() > 2 => format!("{array}[{first}..{}]", first + run.len()),
+        _ => run.join(", "),
+    });
+    told.collect::<Vec<_>>().join(", ")
 }
 
 #[cfg(test)]
@@ -147,5 +168,26 @@ mod tests {
         ];
         assert_eq!(say(&legs[..3]), "all 3 contacts closed");
         assert_eq!(say(&legs), "a, b and c closed, d open");
+    }
+
+    #[test]
+    fn modes_of_many_contacts_have_different_names() {
+        let names: Vec<String> = (0..12).map(|k| format!("hit[{k}]")).collect();
+        let say = |closed: &[usize]| {
+            let doing = |(k, name)| match closed.contains(&k) {
+                true => (name, ["closed", "closed"]),
+                false => (name, ["open", "open"]),
+            };
+            let items = names.iter().map(String::as_str).enumerate().map(doing);
+            together(&items.collect::<Vec<_>>(), "contacts", 12).join(", ")
+        };
+        assert_eq!(
+            say(&[0, 3, 4, 5]),
+            "hit[0], hit[3..6] closed, 8 of 12 contacts open"
+        );
+        assert_eq!(
+            say(&[3, 4, 5, 6]),
+            "8 of 12 contacts open, hit[3..7] closed"
+        );
     }
 }

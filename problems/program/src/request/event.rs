@@ -1,7 +1,7 @@
 //! Which event is meant: `rim lost`, or `floor impact 2` for the second one.
 
 use super::Refusal;
-use crate::names::nearest;
+use crate::names::{is_element, nearest};
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
 
@@ -35,6 +35,32 @@ const OTHERWISE: [(&str, &[&str]); 6] = [
     ("reverses", &["turns", "reversal", "backward"]),
 ];
 
+/// Of what there are events.
+fn subjects(d: &Description) -> impl Iterator<Item = Subject> {
+    (0..d.contacts.len())
+        .map(Subject::Contact)
+        .chain((0..d.frictions.len()).map(Subject::Friction))
+        .chain((0..d.stops.len()).map(Subject::Stop))
+        .chain((0..d.marks.len()).map(Subject::Mark))
+}
+
+/// What [`event`] names; of an array, the event of each element.
+pub(crate) fn events(
+    text: &str,
+    description: &'static Description,
+) -> Result<Vec<(Subject, EventKind, usize)>, Refusal> {
+    let item = text.split_whitespace().next().unwrap_or_default();
+    let names = subjects(description).map(|subject| subject.name(description));
+    let elements: Vec<&str> = names.filter(|name| is_element(name, item)).collect();
+    match elements.as_slice() {
+        [] => event(text, description).map(|one| vec![one]),
+        elements => elements
+            .iter()
+            .map(|element| event(&text.replacen(item, element, 1), description))
+            .collect(),
+    }
+}
+
 /// What `item kind` or `item kind 2` names: an item, what happens to it, and which of these events it is, counted from 1.
 pub(crate) fn event(
     text: &str,
@@ -48,15 +74,9 @@ pub(crate) fn event(
         _ => (text, "", None),
     };
     let d = description;
-    let subjects: Vec<Subject> = (0..d.contacts.len())
-        .map(Subject::Contact)
-        .chain((0..d.frictions.len()).map(Subject::Friction))
-        .chain((0..d.stops.len()).map(Subject::Stop))
-        .chain((0..d.marks.len()).map(Subject::Mark))
-        .collect();
-    let names = || subjects.iter().map(|subject| subject.name(d));
-    let subject = subjects.iter().find(|subject| subject.name(d) == item);
-    let subject = *subject
+    let names = || subjects(d).map(|subject| subject.name(d));
+    let subject = subjects(d).find(|subject| subject.name(d) == item);
+    let subject = subject
         .ok_or_else(|| Refusal::unknown("contact, friction, stop or mark", item, names()))?;
     let suits = |kind: &&EventKind| match subject {
         Subject::Contact(_) => matches!(
@@ -100,7 +120,23 @@ pub(crate) fn event(
 
 #[cfg(test)]
 mod tests {
-    use super::event;
+    use super::{event, events};
+
+    #[test]
+    fn events_of_an_array_are_those_of_its_elements() {
+        let declared = "coordinates(y), kinetic = der(y)^2, contact(step[k in 0..3]: y >= k - 2), contact(top: y <= 9)";
+        let scene = crate::file::scene("steps.lagrange", declared).expect("a declaration");
+        let d = scene.description();
+        let of = |text: &str| events(text, d).map(|all| all.len());
+        assert_eq!(of("step impact"), Ok(3));
+        assert_eq!(of("step[1] impact"), Ok(1));
+        assert_eq!(of("top impact 2"), Ok(1));
+        let refusal = events("step hits", d).expect_err("a mistake").to_string();
+        assert!(
+            refusal.contains("did you mean `step[0] impact`?"),
+            "{refusal}"
+        );
+    }
 
     #[test]
     fn an_event_in_other_words_is_recognised() {

@@ -2,12 +2,12 @@
 
 pub(crate) mod event;
 
-use crate::names::nearest;
+use crate::names::{is_element, nearest};
 use crate::notation::velocity_name;
 use crate::progress::Progress;
 use core::fmt;
 use core::ops::RangeInclusive;
-use event::event;
+use event::events;
 use lagrange_core::effects::Item;
 use lagrange_core::error::Shortest;
 use lagrange_core::prelude::*;
@@ -112,6 +112,11 @@ pub enum Refusal {
         nearest: Option<String>,
         /// All known names.
         known: Vec<String>,
+    },
+    /// What is shown only as an output of the declaration.
+    NoQuantity {
+        /// As given.
+        name: String,
     },
     /// A file that declares a system cannot be read, or has mistakes.
     Declaration {
@@ -244,6 +249,10 @@ impl fmt::Display for Refusal {
                     None => write!(f, "; there are: {}", known.join(", ")),
                 }
             }
+            Refusal::NoQuantity { name } => write!(
+                f,
+                "`{name}` is no quantity by itself; with `observe(u = {name})` in the declaration it is the output `u`"
+            ),
             Refusal::Declaration { reason } => f.write_str(reason),
             Refusal::OfBody { name, coordinates } => write!(
                 f,
@@ -358,9 +367,10 @@ impl Request {
             simulation = simulation.max_events(limit);
         }
         for name in &self.end_after {
-            let event = event(name, system.description())?;
-            self.can_happen(name, event.0, system.description())?;
-            simulation = simulation.end_after(event);
+            for event in events(name, system.description())? {
+                self.can_happen(name, event.0, system.description())?;
+                simulation = simulation.end_after(event);
+            }
         }
         Ok(match &self.progress {
             Some(progress) => simulation.monitor(progress.monitor()),
@@ -513,8 +523,7 @@ pub(crate) fn find_parameter(
 
 /// Whether `name` means what is called so: by its own name, or by that of the array whose element it is.
 fn means(name: &str, called: &str) -> bool {
-    let array = called.split_once('[').map_or(called, |(array, _)| array);
-    name == called || name == array
+    name == called || is_element(called, name)
 }
 
 /// Indices of what `name` means: a parameter, or all elements of an array.

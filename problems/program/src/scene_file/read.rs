@@ -7,7 +7,7 @@ use crate::file::ENDING;
 use crate::format::{RunFormat, Still};
 use crate::names::{self, nearest};
 use crate::quantity::Show;
-use crate::request::event::event;
+use crate::request::event;
 use crate::request::{
     ERRORS, MOST_SAMPLES, Refusal, Request, TOLERANCES, find_coordinate, find_effects,
     find_parameters, find_start, find_state,
@@ -302,7 +302,7 @@ fn picture(value: &Value) -> Result<PathBuf, Wrong> {
 }
 
 fn events(value: &Value, d: &'static Description) -> Result<Vec<String>, Wrong> {
-    known(value, |name| event(name, d).map(drop))
+    known(value, |name| event::events(name, d).map(drop))
 }
 
 /// What a picture shows.

@@ -4,7 +4,7 @@
 //! theta at shell lost        a coordinate, velocity, force, output or energy just before an event, `t` for its time
 //! theta at floor impact 2    … at its second occurrence
 //! impulse floor at floor impact    the impulse of a force in an impact
-//! count floor impact         how often
+//! count floor impact         how often, of an array all of its elements together
 //! theta, theta at the end    at the end of the run; `theta at end` where nothing is called `end`
 //! modes                      the sequence of its switches
 //! ```
@@ -14,7 +14,7 @@ use super::unit;
 use crate::notation::{impulse_unit, velocity_name};
 use crate::outcome::rounding::impulse;
 use crate::outcome::{Force, forces};
-use crate::request::event::event;
+use crate::request::event::{event, events};
 use crate::request::{Quantity, Refusal, find_state};
 use crate::scene::Scene;
 use lagrange_core::prelude::*;
@@ -41,7 +41,8 @@ enum What {
     Potential,
     /// Kinetic and potential.
     Energy,
-    Count,
+    /// How many events are one of these.
+    Count(Vec<Awaited>),
     Modes(Switches),
 }
 
@@ -63,7 +64,7 @@ impl Observation {
         let name = scene.result(&asked);
         let (what, at) = match (name.strip_prefix("count "), name.split_once(" at ")) {
             _ if name == "modes" => (What::Modes(Switches::of(description)), At::End),
-            (Some(event), _) => (What::Count, every(event, description)?),
+            (Some(event), _) => (What::Count(every(event, description)?), At::End),
             (None, Some(("modes", _))) => {
                 return Err(Refusal::Whole {
                     asked,
@@ -104,7 +105,7 @@ impl Observation {
             What::Impulse(row) => impulse_unit(description.units.row(*row)),
             What::Output(index) => description.observes[*index].unit.to_owned(),
             What::Kinetic | What::Potential | What::Energy => description.units.energy.to_owned(),
-            What::Count | What::Modes(_) => String::new(),
+            What::Count(_) | What::Modes(_) => String::new(),
         }
     }
 
@@ -124,23 +125,26 @@ impl Observation {
     /// The event after which a run has no more to say to this, if there is one.
     pub fn ends_with(&self) -> Option<Awaited> {
         match &self.at {
-            At::Event(event) if self.what != What::Count => Some(*event),
-            _ => None,
+            At::Event(event) => Some(*event),
+            At::End => None,
         }
     }
 
     /// Its value in a run; NaN if the run has no such event.
     pub(crate) fn read(&self, trajectory: &Trajectory) -> f64 {
-        if let What::Modes(switches) = &self.what {
-            return switches.number(trajectory.events());
+        match &self.what {
+            What::Modes(switches) => return switches.number(trajectory.events()),
+            What::Count(any) => {
+                let events = trajectory.events().iter();
+                let such = events.filter(|event| any.iter().any(|awaited| awaited.is(event)));
+                return such.count() as f64;
+            }
+            _ => {}
         }
         let event = match &self.at {
             At::End => None,
             At::Event(awaited) => {
                 let mut events = trajectory.events().iter().filter(|event| awaited.is(event));
-                if self.what == What::Count {
-                    return events.count() as f64;
-                }
                 let Some(event) = events.nth(awaited.number - 1) else {
                     return f64::NAN;
                 };
@@ -178,18 +182,13 @@ impl Observation {
     }
 }
 
-/// `item kind`, `item kind 2`
-fn at(text: &str, description: &'static Description) -> Result<At, Refusal> {
-    Ok(At::Event(event(text, description)?.into()))
-}
-
 /// `item kind`, and no more: all of them are counted.
-fn every(text: &str, description: &'static Description) -> Result<At, Refusal> {
+fn every(text: &str, description: &'static Description) -> Result<Vec<Awaited>, Refusal> {
     let second = text.match_indices(' ').nth(1);
     let kind = second.map_or(text, |(end, _)| &text[..end]);
-    let found = at(kind, description)?;
+    let found = events(kind, description)?;
     match kind == text {
-        true => Ok(found),
+        true => Ok(found.into_iter().map(Awaited::from).collect()),
         false => Err(Refusal::Whole {
             asked: format!("count {text}"),
             alone: format!("count {kind}"),

@@ -255,6 +255,18 @@ fn what_is_meant_is_told() {
             "2:18 E024 `=` is not an operator here; what stands here is one value; a force along a coordinate is an item of its own, `force(name: x = …)`",
         ),
         (
+            "observe(twice = 2*time)",
+            "2:19 E201 `time` is not known; time is written `t`",
+        ),
+        (
+            "constraint(c: x == 0 and theta == 0)",
+            "2:22 E024 `and` is not an operator here; a constraint is one equation: write a constraint for each",
+        ),
+        (
+            "contact(c: x >= 0, where theta >= 0, where theta <= 1)",
+            "2:38 E017 `where` is given twice; a region is one comparison; for two write `where min(a, b) >= 0`",
+        ),
+        (
             "coordinates(z[2][3])",
             "2:17 E031 `[…]` stands in the wrong place; coordinates have one index: a name for each row, `x[3], y[3]`, or one for all, `x[6]`",
         ),

@@ -92,6 +92,10 @@ fn wrong_units_are_told_at_the_term() {
             "3:24 E705 adds m to m²/s²; a factor in m/s² is missing",
         ),
         (
+            "observe(both = [y, y] + [y^2, y^2])",
+            "3:25 E705 adds m² to m; a factor in 1/m is missing",
+        ),
+        (
             "potential = m*g",
             "3:13 E704 a potential energy is in J, and this is in N; a factor in m is missing",
         ),

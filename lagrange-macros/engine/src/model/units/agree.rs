@@ -64,26 +64,30 @@ impl Checker<'_, '_> {
         hint: Option<&Quantity>,
     ) -> Option<Shape> {
         let quantities: Vec<Vec<Quantity>> = shapes.iter().map(Shape::quantities).collect();
-        let (mut fine, count) = (true, quantities.first().map_or(0, Vec::len));
+        let count = quantities.first().map_or(0, Vec::len);
+        // A term is told once, however many of its components disagree.
+        let mut told = vec![false; terms.len()];
         for component in 0..count {
             let column: Vec<&Quantity> = quantities
                 .iter()
                 .filter_map(|row| row.get(component))
                 .collect();
             let reference = self.reference(terms, &column, hint);
-            for (term, quantity) in terms.iter().zip(&column) {
+            for (i, (term, quantity)) in terms.iter().zip(&column).enumerate() {
                 if let Some((reference, found)) = self.unknowns.conflict(&reference, quantity) {
+                    if std::mem::replace(&mut told[i], true) {
+                        break;
+                    }
                     let remedy = self.remedy(&reference, &found, term);
                     let (found, reference) = (self.noun(&found), self.noun(&reference));
                     self.sink
                         .report(code, term.extent, &[&found, &reference, &remedy]);
-                    fine = false;
                     break;
                 }
             }
         }
         let first = shapes.into_iter().next()?;
-        fine.then_some(first)
+        (!told.contains(&true)).then_some(first)
     }
 
     /// What the others are measured by: what is expected if some term has it, else the unit that most terms have. A bare number has no

@@ -6,9 +6,10 @@ use crate::diagnostics::nearest;
 use crate::symbolic::Rational;
 
 /// Units and the power of ten by which they differ from the coherent unit of their dimension.
-const UNITS: [(&str, Dimension, i64); 32] = [
+const UNITS: [(&str, Dimension, i64); 33] = [
     ("m", Dimension::LENGTH, 0),
     ("g", Dimension::MASS, -3),
+    ("t", Dimension::MASS, 3),
     ("s", Dimension::TIME, 0),
     ("A", Dimension::base(3), 0),
     ("K", Dimension::base(4), 0),

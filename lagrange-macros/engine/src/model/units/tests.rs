@@ -115,6 +115,7 @@ fn multiples_are_told_with_their_coherent_unit() {
     let multiples = [
         ("mm", "m"),
         ("g", "kg"),
+        ("t", "kg"),
         ("deg", "rad"),
         ("min", "s"),
         ("km/h", "m/s"),

@@ -32,6 +32,11 @@ pub(super) fn constraint(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Opti
     };
     first.require(":", sink)?;
     let sides = equation(first, CONSTRAINT, sink).and_then(|sides| {
+        if let Some(and) = first.take_word("and") {
+            let hint = "a constraint is one equation: write a constraint for each";
+            sink.report(Code::Operator, &and, &[&and.text, &hint]);
+            return None;
+        }
         leftover(first, sink)?;
         Some(sides)
     });
@@ -86,9 +91,12 @@ fn contact_part(
 ) -> Option<()> {
     if let Some(word) = part.take_word("where") {
         let found = comparison(part, REGION, sink)?;
-        once(region, found, &word, sink);
+        let hint = "a region is one comparison; for two write `where min(a, b) >= 0`";
+        if region.is_some() {
+            sink.report(Code::RepeatedPart, &word, &[&word.text, &hint]);
+        }
+        *region = Some(found);
         if let Some(and) = part.take_word("and") {
-            let hint = "a region is one comparison; for two write `where min(a, b) >= 0`";
             sink.report(Code::Operator, &and, &[&and.text, &hint]);
             part.skip_all();
             return None;

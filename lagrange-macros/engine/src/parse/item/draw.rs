@@ -62,7 +62,7 @@ pub(super) fn draw(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<Ite
         }
         let detail = Detail::ALL.iter().find(|(word, _)| *word == key.text)?.1;
         if details.iter().any(|(known, ..)| *known == detail) {
-            sink.report(Code::RepeatedPart, &key, &[&key.text]);
+            sink.report(Code::RepeatedPart, &key, &[&key.text, &"keep one"]);
         }
         details.push((detail, key, whole(part, sink)?));
     }

@@ -388,7 +388,7 @@ pub(super) fn text(part: &mut Cursor, what: &str, sink: &mut Diagnostics) -> Opt
 /// Puts a value into its slot; a second one is reported.
 fn once<V>(slot: &mut Option<V>, value: V, key: &Name, sink: &mut Diagnostics) {
     if slot.is_some() {
-        sink.report(Code::RepeatedPart, key, &[&key.text]);
+        sink.report(Code::RepeatedPart, key, &[&key.text, &"keep one"]);
     }
     *slot = Some(value);
 }

@@ -108,14 +108,14 @@ fn parameter(part: &mut Cursor, sink: &mut Diagnostics) -> Option<(Field, Expr)>
         };
         let text = text(part, &what, sink)?;
         if field.unit.is_some() {
-            sink.report(Code::RepeatedPart, colon, &[&"unit"]);
+            sink.report(Code::RepeatedPart, colon, &[&"unit", &"keep one"]);
         }
         field.unit = Some(Unit { text, extent });
     }
     if let Some(word) = part.word() {
         part.next();
         if field.domain.is_some() {
-            sink.report(Code::RepeatedPart, &word, &[&"domain"]);
+            sink.report(Code::RepeatedPart, &word, &[&"domain", &"keep one"]);
         }
         field.domain = Some(structure::domain(&word.text, (&word).into(), sink)?);
     }
@@ -168,6 +168,7 @@ fn unit_behind(part: &Cursor) -> Option<String> {
 /// The number N of `[N]`.
 fn length(inside: &mut Cursor, sink: &mut Diagnostics) -> Option<usize> {
     let here = inside.here();
+    let found = inside.found();
     let length = match inside.next() {
         Some(TokenTree::Literal(literal)) => Some(number(&literal, sink)?),
         _ => None,
@@ -175,8 +176,8 @@ fn length(inside: &mut Cursor, sink: &mut Diagnostics) -> Option<usize> {
     let length = length.filter(|length| length.exponent == 0 && inside.is_at_end());
     let length = length.and_then(|length| usize::try_from(length.digits).ok());
     if length.is_none() {
-        let found = "something else";
-        sink.report(Code::Expected, here, &[&"a number of elements", &found]);
+        let wanted = "a number of elements, as in `[3]`, or a unit, as in `: \"m\"`";
+        sink.report(Code::Expected, here, &[&wanted, &found]);
     }
     length
 }

@@ -67,13 +67,13 @@ pub(super) fn outputs(outcome: &Outcome) -> Vec<Output> {
 
 /// More coordinates than this do not have portraits.
 const PORTRAITS: usize = 12;
-/// More rows than this do not have plots.
+/// More plots of forces than this are left out.
 const PLOTS: usize = 12;
 /// More items than this do not have curves in one plot.
 const CURVES: usize = 6;
 
-/// All plots over time.
-pub(super) fn plots(film: &Film) -> Vec<Plot> {
+/// All plots over time, and how many of forces are left out.
+pub(super) fn plots(film: &Film) -> (Vec<Plot>, usize) {
     let outcome = &film.outcome;
     let mut plots = frictions(outcome);
     plots.extend(pushes(outcome, "Contact forces", |source| {
@@ -82,10 +82,11 @@ pub(super) fn plots(film: &Film) -> Vec<Plot> {
     plots.extend(pushes(outcome, "Constraint forces", |source| {
         matches!(source, Source::Constraint(_))
     }));
+    let left_out = plots.len().saturating_sub(PLOTS);
     plots.truncate(PLOTS);
     plots.push(energies(outcome));
     plots.extend(work(film));
-    plots
+    (plots, left_out)
 }
 
 /// Each friction that acts at some time beside what it can hold.
@@ -120,11 +121,16 @@ fn frictions(outcome: &Outcome) -> Vec<Plot> {
     present.map(plot).collect()
 }
 
-/// Forces of one kind, a plot for each unit; none of forces that never act, as those of a ball that only bounces.
+/// Forces of one kind that act at some time, those of one unit together as far as a plot has room.
 fn pushes(outcome: &Outcome, title: &str, of_kind: fn(Source) -> bool) -> Vec<Plot> {
     let description = outcome.description;
+    let acts = |force: &Force| {
+        let mut samples = outcome.samples.iter();
+        samples.any(|sample| force.acts(description, &sample.mode))
+    };
     let all = forces(description);
-    let present = |force: &&Force| of_kind(force.source) && outcome.includes(force.source);
+    let present =
+        |force: &&Force| of_kind(force.source) && outcome.includes(force.source) && acts(force);
     let all: Vec<&Force> = all.iter().filter(present).collect();
     let unit = |force: &Force| description.units.row(force.row);
     let mut units: Vec<&str> = Vec::new();
@@ -133,26 +139,24 @@ fn pushes(outcome: &Outcome, title: &str, of_kind: fn(Source) -> bool) -> Vec<Pl
             units.push(unit(force));
         }
     }
-    let plot = |of: &str| {
-        let same = all.iter().filter(|force| unit(force) == of).take(CURVES);
-        let curves = same.map(|force| {
-            curve(outcome, force.name.clone(), false, |sample| {
-                let acts = force.acts(description, &sample.mode);
-                acts.then_some(sample.forces[force.row])
-            })
-        });
-        Plot {
+    let curve = |force: &&Force| {
+        curve(outcome, force.name.clone(), false, |sample| {
+            let acts = force.acts(description, &sample.mode);
+            acts.then_some(sample.forces[force.row])
+        })
+    };
+    let mut plots = Vec::new();
+    for of in units {
+        let same = all.iter().copied().filter(|force| unit(force) == of);
+        let same: Vec<&Force> = same.collect();
+        plots.extend(same.chunks(CURVES).map(|some| Plot {
             title: title.to_owned(),
             axis: force_axis(of),
             time: Vec::new(),
-            curves: curves.collect(),
-        }
-    };
-    let acts = |plot: &Plot| {
-        let mut values = plot.curves.iter().flat_map(|curve| &curve.values);
-        values.any(Option::is_some)
-    };
-    units.into_iter().map(plot).filter(acts).collect()
+            curves: some.iter().map(curve).collect(),
+        }));
+    }
+    plots
 }
 
 fn force_axis(unit: &str) -> String {

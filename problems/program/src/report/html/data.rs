@@ -8,6 +8,7 @@ use crate::report::frames::{SPEEDS, span, usual_speed};
 use crate::report::picture::{Picture, Stage, pictures, stages};
 use crate::report::words::brief;
 use serde::Serialize;
+use std::num::NonZeroUsize;
 
 /// What the player of the page reads.
 #[derive(Serialize)]
@@ -35,6 +36,9 @@ struct Run {
     #[serde(skip_serializing_if = "Option::is_none")]
     space: Option<Stage>,
     plots: Vec<Plot>,
+    /// Plots of forces for which there is no room.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    left_out: Option<NonZeroUsize>,
     phase: Vec<Portrait>,
     outputs: Vec<Output>,
 }
@@ -95,6 +99,7 @@ fn run(
         time: significant(event.time),
         text: format!("{} {}", event.subject.name(description), event.kind.word()),
     });
+    let (plots, left_out) = plots(&shown.film);
     Run {
         title: shown.title.clone(),
         scene: outcome.scene,
@@ -104,7 +109,8 @@ fn run(
         events: events.collect(),
         picture,
         space,
-        plots: plots(&shown.film),
+        plots,
+        left_out: NonZeroUsize::new(left_out),
         phase: portraits(outcome, first.map(|film| &film.outcome)),
         outputs: outputs(outcome),
     }

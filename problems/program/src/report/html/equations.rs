@@ -58,9 +58,10 @@ pub(super) fn equations(run: &Shown) -> String {
     )
 }
 
-/// What the user wrote that makes the motion: energies, constraints, contacts, friction laws, forces.
+/// What the user wrote that makes the motion: energies, constraints, contacts, friction laws, forces, and what they are written with.
 fn declared(derived: &inspect::Derivation) -> String {
-    const TOLD: [&str; 8] = [
+    const TOLD: [&str; 9] = [
+        "define",
         "kinetic",
         "potential",
         "lagrangian",

@@ -221,6 +221,22 @@ mod tests {
         assert!(!tables.contains("meaning"), "{tables}");
     }
 
+    /// Ten steps of which a ball meets the highest only, which is declared last.
+    #[test]
+    fn forces_that_act_are_shown_however_many_do_not() {
+        let run = shown(
+            "coordinates(y), kinetic = der(y)^2/2, potential = 10 * y,
+             contact(step[k in 0..10]: y >= k - 9), start(up: y = 1), until = 1,",
+        );
+        let page = serde_json::to_value(data(std::slice::from_ref(&run), None)).expect("numbers");
+        let curves = &page["runs"][0]["plots"][0]["curves"];
+        assert_eq!(curves.as_array().map(Vec::len), Some(1), "{curves}");
+        assert_eq!(curves[0]["name"], "step[9]");
+        let tables = tables::tables(&run);
+        let head = |k: usize| tables.contains(&format!("<th scope=\"col\">step[{k}]</th>"));
+        assert_eq!([head(0), head(9)], [false, true], "{tables}");
+    }
+
     /// A block that is pulled harder than its friction holds never sticks.
     #[test]
     fn forces_at_the_start_are_those_with_which_the_motion_begins() {

@@ -3,15 +3,18 @@
 use super::{Shown, short};
 use crate::notation::impulse_unit;
 use crate::notation::{is_angle, symbol};
-use crate::outcome::forces;
 use crate::outcome::rounding::ROUNDING;
+use crate::outcome::{Force, forces};
 use crate::report::words::brief;
 use lagrange_core::error::Shortest;
 use lagrange_core::prelude::*;
 use lagrange_engine::inspect::print::mathml::escaped;
+use std::fmt::Write;
 
 /// More events than this are left out.
 const EVENTS: usize = 200;
+/// More coordinates than this, and more forces of those that act, do not have columns.
+const COLUMNS: usize = 8;
 
 pub(super) fn tables(run: &Shown) -> String {
     let small = [parameters(run), energy(run), accuracy(run)].concat();
@@ -53,9 +56,29 @@ fn events(run: &Shown) -> String {
         "" => escaped(name),
         unit => format!("{} [{}]", escaped(name), escaped(unit)),
     };
-    let all = forces(description);
-    let coordinates = &description.coordinates[..description.coordinates.len().min(8)];
-    let all = &all[..all.len().min(8)];
+    let told = &outcome.events[..outcome.events.len().min(EVENTS)];
+    let force = |force: &Force, event: &Event<f64>| {
+        let (rows, mode) = match outcome.is_decided_at_start(event) {
+            true => (&event.forces_after, &event.after),
+            false => (&event.forces, &event.before),
+        };
+        let impulse = event.impulses.get(force.row).copied().unwrap_or(0.0);
+        match event.kind {
+            EventKind::Impact if impulse != 0.0 => {
+                let unit = impulse_unit(description.units.row(force.row));
+                Some(format!("{} {unit}", short(impulse)).trim_end().to_owned())
+            }
+            EventKind::Impact => None,
+            _ => force
+                .acts(description, mode)
+                .then(|| short(rows[force.row])),
+        }
+    };
+    let coordinates = &description.coordinates;
+    let coordinates = &coordinates[..coordinates.len().min(COLUMNS)];
+    let acts = |one: &Force| told.iter().any(|event| force(one, event).is_some());
+    let acting: Vec<Force> = forces(description).into_iter().filter(acts).collect();
+    let all = &acting[..acting.len().min(COLUMNS)];
     let mut head: Vec<String> = ["t [s]", "event", "mode after"].map(str::to_owned).into();
     head.extend(coordinates.iter().map(|c| match is_angle(c) {
         true => format!("{} [°]", symbol(c.name)),
@@ -86,31 +109,24 @@ fn events(run: &Shown) -> String {
                 false => *q,
             })
         }));
-        let (rows, mode) = match outcome.is_decided_at_start(event) {
-            true => (&event.forces_after, &event.after),
-            false => (&event.forces, &event.before),
-        };
-        row.extend(all.iter().map(|force| {
-            let impulse = event.impulses.get(force.row).copied().unwrap_or(0.0);
-            match event.kind {
-                EventKind::Impact if impulse != 0.0 => {
-                    let unit = impulse_unit(description.units.row(force.row));
-                    format!("{} {unit}", short(impulse)).trim_end().to_owned()
-                }
-                EventKind::Impact => "–".to_owned(),
-                _ if force.acts(description, mode) => short(rows[force.row]),
-                _ => "–".to_owned(),
-            }
-        }));
+        let forces = all.iter().map(|one| force(one, event));
+        row.extend(forces.map(|told| told.unwrap_or_else(|| "–".to_owned())));
         row
     };
-    let rows: Vec<Vec<String>> = outcome.events.iter().take(EVENTS).map(row).collect();
-    let left = outcome.events.len().saturating_sub(EVENTS);
-    let told = "State and forces just before each event, at the start just after it; of impacts their impulses";
-    let note = match left {
-        0 => format!("{told}."),
-        left => format!("{told}. {left} more events are left out."),
-    };
+    let rows: Vec<Vec<String>> = told.iter().map(row).collect();
+    let mut note = "State and forces just before each event, at the start just after it; of impacts their impulses.".to_owned();
+    for (left, what) in [
+        (outcome.events.len() - told.len(), "events"),
+        (
+            description.coordinates.len() - coordinates.len(),
+            "coordinates",
+        ),
+        (acting.len() - all.len(), "forces that act"),
+    ] {
+        if left > 0 {
+            let _ = write!(note, " {left} more {what} are left out.");
+        }
+    }
     table(run, "Events", &head, &rows) + &format!("<p class=\"note\">{note}</p>\n")
 }
 

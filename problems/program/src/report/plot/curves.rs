@@ -351,5 +351,19 @@ mod tests {
         assert!(said("theta vs thetadot").contains("did you mean `der(theta)`?"));
         assert!(said("limit(grib)").contains("did you mean `limit(grip)`?"));
         assert!(said("theta,").contains("no quantity is called ``"));
+        assert!(said("der(der(r)) + 1").contains("`observe(u = der(der(r))+1)`"));
+    }
+
+    #[test]
+    fn an_array_means_all_of_its_elements() {
+        let declared = "coordinates(x[2], y), kinetic = der(y)^2 + sum(i in 0..2: der(x[i])^2), force(pull: y = 1)";
+        let scene = file::scene("array.lagrange", declared).expect("a declaration");
+        let d = scene.description();
+        let show = Show::new("x, y, der(x)", d).expect("curves");
+        let [x, y] = [Quantity::Position, Quantity::Velocity].map(|of| [of(0), of(1)]);
+        assert_eq!(show.curves, [&x[..], &[Quantity::Position(2)], &y].concat());
+        let said = |text: &str| Show::new(text, d).expect_err("a mistake").to_string();
+        assert!(said("y vs x").contains("did you mean `x[0]`?"));
+        assert!(said("pull").contains("`observe(u = pull)`"));
     }
 }

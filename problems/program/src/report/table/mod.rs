@@ -84,12 +84,15 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
         writeln!(out, "\n{}", energy.trim_fmt())?;
         writeln!(
             out,
-            "The ledger{} closes to {:.1e} of its scale, {}{}{unit}.",
+            "The ledger{} closes to {} of its scale, {}{}{unit}.",
             match ledger.has_own_jacobi() {
                 true => " of the Jacobi integral",
                 false => "",
             },
-            ledger.closure.abs() / ledger.scale.max(f64::MIN_POSITIVE),
+            match ledger.closure.abs() / ledger.scale.max(f64::MIN_POSITIVE) {
+                0.0 => "0".to_owned(),
+                part => format!("{part:.1e}"),
+            },
             Decimals::of([ledger.scale]).show(ledger.scale),
             if unit.is_empty() { "" } else { " " }
         )?;
@@ -167,9 +170,11 @@ fn energy(ledger: &Ledger, unit: &str) -> (Table, usize) {
     }
     let works = ledger.work.iter().map(|entry| entry.work);
     let decimals = Decimals::of(lines.iter().flat_map(|(_, a, b)| [*a, *b]).chain(works));
-    // Whoever did nothing that the digits show is left out; friction is worth a line even then.
+    // Whoever did nothing that the digits show is left out; of few, friction is worth a line even then.
+    let frictions = ledger.work.iter().filter(|entry| entry.kind == "friction");
+    let few = frictions.count() <= FEW;
     let counts = |entry: &&Entry| {
-        entry.kind == "friction"
+        few && entry.kind == "friction"
             || decimals
                 .show(entry.work)
                 .contains(|digit| matches!(digit, '1'..='9'))
@@ -304,6 +309,32 @@ mod tests {
                 "{told}\n{lines:#?}"
             );
         }
+    }
+
+    /// A ball over ten steps, of which it meets the highest only; outputs are the ball's own coordinate and another one.
+    #[test]
+    fn a_story_shows_what_acts_and_what_is_observed_once() {
+        let lines = story(
+            "coordinates(y, far), kinetic = (der(y)^2 + der(far)^2) / 2, potential = 10 * y,
+             contact(step[k in 0..10]: y >= k - 9), observe(y, low = y - 1), start(up: y = 1), until = 1,",
+        );
+        assert_eq!(lines[0], "t event y far low step[9] mode", "{lines:#?}");
+        assert!(
+            lines.iter().all(|line| !line.contains("0.0e0")),
+            "{lines:#?}"
+        );
+    }
+
+    /// A force of 1e-17 N beside one of 10 N, and 1e-20 m beside 1 m.
+    #[test]
+    fn what_is_rounding_beside_its_unit_is_shown_as_zero() {
+        let lines = story(
+            "parameters(m: \"kg\" = 1, g: \"m/s^2\" = 10, p: \"N\" = 1e-17, near: \"m\" = 1e-20, far: \"m\" = 1), coordinates(x: \"m\", y: \"m\"),
+             kinetic = m/2 * (der(x)^2 + der(y)^2), potential = m * g * y + p * x,
+             constraint(shelf: y == far), constraint(wall: x == near), start(up: y = far, x = near), until = 1,",
+        );
+        let start = "0.000000 start 0.0000 1.0000 10.000 0.000 smooth";
+        assert!(lines.iter().any(|line| line == start), "{lines:#?}");
     }
 
     /// Two equal springs: one is in the middle when the other is.

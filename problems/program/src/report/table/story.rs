@@ -20,7 +20,24 @@ struct Column {
     head: String,
     /// Place in [`Line::state`].
     place: usize,
+    unit: String,
     scale: f64,
+}
+
+/// What has this place in [`Line::state`].
+fn quantity(description: &Description, place: usize) -> Quantity {
+    match place.checked_sub(description.coordinates.len()) {
+        None => Quantity::Position(place),
+        Some(i) => Quantity::Output(i),
+    }
+}
+
+/// What it is called in the declaration.
+fn name(description: &Description, place: usize) -> &'static str {
+    match place.checked_sub(description.coordinates.len()) {
+        None => description.coordinates[place].name,
+        Some(i) => description.observes[i].name,
+    }
 }
 
 impl Column {
@@ -28,8 +45,18 @@ impl Column {
         Some(line.state[self.place]? * self.scale)
     }
 
+    /// The largest number of its unit in the lines.
+    fn beside(&self, lines: &[Line], description: &Description) -> f64 {
+        let places = 0..description.coordinates.len() + description.observes.len();
+        let alike =
+            places.filter(|&place| quantity(description, place).unit(description) == self.unit);
+        let numbers =
+            alike.flat_map(|place| lines.iter().filter_map(move |line| line.state[place]));
+        numbers.fold(0.0, |a: f64, x| a.max(x.abs())) * self.scale
+    }
+
     /// As many as the lines need. What is nothing but error in all of them is shown beside how far its velocities carry a coordinate, or what an
-    /// output ever is; an angle that is nothing but rounding, beside 1 rad.
+    /// output ever is; what is nothing but rounding, beside the largest number of its unit, and an angle beside 1 rad.
     fn decimals(&self, lines: &[Line], outcome: &Outcome) -> Decimals {
         let told: Vec<f64> = lines.iter().filter_map(|line| self.of(line)).collect();
         let largest = |values: &[f64]| values.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
@@ -51,18 +78,22 @@ impl Column {
         };
         let ever = ever * self.scale;
         let coordinates = outcome.description.coordinates;
+        let beside = self.beside(lines, outcome.description);
         let turn = coordinates.get(self.place).filter(|c| is_angle(c));
         if largest(&told) < outcome.tolerance * ever {
             Decimals::of([ever])
         } else if turn.is_some() && largest(&told) < ROUNDING * self.scale {
             Decimals::of([self.scale])
+        } else if largest(&told) < ROUNDING * beside {
+            Decimals::of([beside])
         } else {
             Decimals::of(told)
         }
     }
 }
 
-/// Angles, or all coordinates if none is an angle; then outputs, and then the other coordinates, where there is room beside the forces.
+/// Angles, or all coordinates if none is an angle; then outputs, and then the other coordinates, where there is room beside the forces or
+/// nothing stands there yet. An output of a coordinate by its own name is that coordinate.
 fn shown(description: &Description, forces: usize) -> Vec<Column> {
     let coordinates = description.coordinates;
     let telling = telling(description);
@@ -74,25 +105,49 @@ fn shown(description: &Description, forces: usize) -> Vec<Column> {
     for more in [outputs.collect(), others] {
         let new: Vec<usize> = more
             .into_iter()
-            .filter(|place| !places.contains(place))
+            .filter(|&place| {
+                let mut known = places.iter();
+                known.all(|&known| name(description, known) != name(description, place))
+            })
             .collect();
-        if forces + places.len() + new.len() <= NUMBERS {
+        if places.is_empty() || forces + places.len() + new.len() <= NUMBERS {
             places.extend(new);
         }
     }
     places.sort_unstable();
     let column = |place: usize| {
-        let (name, quantity) = match place.checked_sub(coordinates.len()) {
-            None => (coordinates[place].name, Quantity::Position(place)),
-            Some(i) => (description.observes[i].name, Quantity::Output(i)),
-        };
+        let quantity = quantity(description, place);
+        let unit = quantity.unit(description);
         Column {
-            head: format!("{}\n{}", symbol(name), quantity.unit(description)),
+            head: format!("{}\n{unit}", symbol(name(description, place))),
             place,
+            unit,
             scale: quantity.scale(description),
         }
     };
     places.into_iter().map(column).collect()
+}
+
+/// A force that is rounding alone beside the largest of its unit is 0.
+fn forget_rounding(lines: &mut [Line], items: &[Force], description: &Description) {
+    let unit = |k: usize| description.units.row(items[k].row);
+    let mut largest = vec![0.0_f64; items.len()];
+    for line in &*lines {
+        for (k, force) in line.upper.iter().chain(&line.lower).enumerate() {
+            let k = k % items.len();
+            largest[k] = largest[k].max(force.unwrap_or(0.0).abs());
+        }
+    }
+    let alike = |k: usize| (0..items.len()).filter(move |other| unit(*other) == unit(k));
+    let least = (0..items.len()).map(|k| alike(k).fold(0.0, |a: f64, other| a.max(largest[other])));
+    let least: Vec<f64> = least.map(|largest| f64::EPSILON * largest).collect();
+    for line in lines {
+        for side in [&mut line.upper, &mut line.lower] {
+            for (force, least) in side.iter_mut().zip(&least) {
+                *force = force.map(|force| if force.abs() < *least { 0.0 } else { force });
+            }
+        }
+    }
 }
 
 /// As many as the lines need. What is nothing but error in all of them is shown like what it is an error of: the other component of its
@@ -115,10 +170,12 @@ fn decimals_of_forces(items: &[Force], lines: &[Line], outcome: &Outcome) -> Vec
         let held = outcome.samples.iter().map(|sample| sample.held[item.row]);
         let whole = held.fold(of_all(&|other| other.source == item.source), f64::max);
         let beside = of_all(&|other| unit(other) == unit(item));
+        let whole = match whole < f64::EPSILON * beside {
+            true => beside,
+            false => whole,
+        };
         if largest[k] < outcome.tolerance * whole {
             Decimals::of([whole])
-        } else if largest[k] < f64::EPSILON * beside {
-            Decimals::of([beside])
         } else {
             Decimals::of(told(k))
         }
@@ -126,10 +183,28 @@ fn decimals_of_forces(items: &[Force], lines: &[Line], outcome: &Outcome) -> Vec
     items.iter().enumerate().map(decimals).collect()
 }
 
+/// The forces of the story: where there are many, those that act in some line.
+fn told(outcome: &Outcome) -> Vec<Force> {
+    let all = forces(outcome.description);
+    if all.len() <= NUMBERS {
+        return all;
+    }
+    let lines = lines(outcome, &all);
+    let acts = |k: usize| {
+        let mut sides = lines.iter().flat_map(|line| [&line.upper, &line.lower]);
+        sides.any(|forces| forces.get(k).is_some_and(Option::is_some))
+    };
+    let all = all.into_iter().enumerate();
+    all.filter(|(k, _)| acts(*k))
+        .map(|(_, force)| force)
+        .collect()
+}
+
 /// The table of what happened.
 pub(super) fn story(outcome: &Outcome) -> Table {
-    let items = forces(outcome.description);
-    let lines = lines(outcome, &items);
+    let items = told(outcome);
+    let mut lines = lines(outcome, &items);
+    forget_rounding(&mut lines, &items, outcome.description);
     let columns = shown(outcome.description, items.len());
     let estimated = lines.iter().any(|line| line.error.is_some());
     let mut table = page();
