@@ -210,7 +210,7 @@ impl<T: Scalar> Run<T> {
                 None => false,
             };
             // Polynomials are cut off where the tolerance allows it, and edges of surfaces that were entered are lowered by as much.
-            let off = (2.0 * self.touching(c)).min(SOON * slope.abs());
+            let off = 2.0 * self.touching(c);
             if crosses
                 && distance <= self.blur(edge, curve, distance).max(off)
                 && !fallen.contains(&edge)

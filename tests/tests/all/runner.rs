@@ -486,7 +486,7 @@ fn what_is_prescribed_runs_again() {
     ] {
         let mut runner = Simulation::new(&scene).effects(effects).runner();
         for _ in 0..3 {
-            let run = runner.run(&scene.at(Cam::RUNNING), 0.0..1.0);
+            let run = runner.run(scene.at(Cam::RUNNING), 0.0..1.0);
             let end = run.expect("a run").final_state();
             agree("lift", end.q[1], 1.0_f64.cos(), 1e-9);
         }

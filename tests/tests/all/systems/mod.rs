@@ -120,6 +120,7 @@ mod stiff;
 mod stools;
 mod stretched;
 mod striking_rod;
+mod tracks;
 mod turned_loads;
 mod turned_room;
 mod turntable;
