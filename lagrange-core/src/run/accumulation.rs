@@ -193,6 +193,21 @@ impl Train {
         self.count += 1;
     }
 
+    /// Forgets the impacts of a contact that has come to rest: those that it may have later are of another train.
+    fn forget(&mut self, contact: usize) {
+        let hits = self.hits;
+        let remembered = self.count.saturating_sub(WINDOW)..self.count;
+        if remembered.clone().all(|k| hits[k % WINDOW].1 != contact) {
+            return;
+        }
+        self.count = 0;
+        for (time, other) in remembered.map(|k| hits[k % WINDOW]) {
+            if other != contact {
+                self.book(time, other);
+            }
+        }
+    }
+
     /// Whether there are enough impacts, of several contacts, to judge it.
     fn is_long(&self) -> bool {
         self.count >= WINDOW && self.hits.iter().any(|(_, c)| *c != self.hits[0].1)
@@ -225,9 +240,11 @@ impl<T: Scalar> Run<T> {
         facts: &mut SwitchFacts,
     ) -> Result<bool, Error> {
         let mut ends = false;
-        // A plastic impact after which nothing parts is no bounce; on a rocking block the corner that is hit stays and
-        // the other one parts.
+        // A plastic impact after which nothing parts is no bounce, and the last of those before it; on a rocking block the
+        // corner that is hit stays and the other one parts.
         if !facts.parting.contains(&true) {
+            let struck = (0..outcome.struck.len()).filter(|&c| outcome.struck[c]);
+            struck.for_each(|c| self.switcher.train.forget(c));
             return Ok(ends);
         }
         for c in 0..self.description().contacts.len() {
@@ -297,7 +314,9 @@ impl<T: Scalar> Run<T> {
         outcome: &Impact<T>,
         facts: &mut SwitchFacts,
     ) -> Option<(usize, T)> {
-        if !(self.switcher.train.is_long() && self.switcher.train.has(c)) {
+        // Where the contact has a law of its own, that knows better how long it bounces on.
+        let lawful = self.switcher.impacts[c].left.is_finite();
+        if lawful || !(self.switcher.train.is_long() && self.switcher.train.has(c)) {
             return None;
         }
         let remaining = match self.switcher.train.remaining() {
@@ -311,6 +330,7 @@ impl<T: Scalar> Run<T> {
         if !(certain && self.is_over_for_gaps(remaining, outcome)) {
             return None;
         }
+        let count = self.switcher.train.count;
         for c in 0..self.switcher.impacts.len() {
             if self.switcher.train.has(c) && self.vanishes(c) {
                 self.end(c, facts);
@@ -322,7 +342,6 @@ impl<T: Scalar> Run<T> {
         } else {
             0.0
         };
-        let count = self.switcher.train.count;
         self.switcher.train.restart();
         Some((count, T::from_f64(remaining)))
     }
@@ -444,5 +463,6 @@ impl<T: Scalar> Run<T> {
     pub(super) fn end(&mut self, c: usize, facts: &mut SwitchFacts) {
         (facts.touching[c], facts.parting[c]) = (true, false);
         self.switcher.impacts[c] = Impacts::default();
+        self.switcher.train.forget(c);
     }
 }
