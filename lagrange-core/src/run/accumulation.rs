@@ -193,7 +193,7 @@ impl Train {
         self.count += 1;
     }
 
-    /// Forgets the impacts of a contact that has come to rest: those that it may have later are of another train.
+    /// Forgets the impacts of a contact that has come to rest since: those that it has now are of another train.
     fn forget(&mut self, contact: usize) {
         let hits = self.hits;
         let remembered = self.count.saturating_sub(WINDOW)..self.count;
@@ -240,16 +240,17 @@ impl<T: Scalar> Run<T> {
         facts: &mut SwitchFacts,
     ) -> Result<bool, Error> {
         let mut ends = false;
-        // A plastic impact after which nothing parts is no bounce, and the last of those before it; on a rocking block the
-        // corner that is hit stays and the other one parts.
+        // A plastic impact after which nothing parts is no bounce; on a rocking block the corner that is hit stays and
+        // the other one parts.
         if !facts.parting.contains(&true) {
-            let struck = (0..outcome.struck.len()).filter(|&c| outcome.struck[c]);
-            struck.for_each(|c| self.switcher.train.forget(c));
             return Ok(ends);
         }
         for c in 0..self.description().contacts.len() {
             if !(outcome.struck[c] && facts.arriving[c]) {
                 continue;
+            }
+            if self.switcher.impacts[c].count == 0 {
+                self.switcher.train.forget(c);
             }
             self.switcher.train.book(self.now.t.value(), c);
             let ended = self.accumulate(c, outcome, facts);
@@ -314,9 +315,7 @@ impl<T: Scalar> Run<T> {
         outcome: &Impact<T>,
         facts: &mut SwitchFacts,
     ) -> Option<(usize, T)> {
-        // Where the contact has a law of its own, that knows better how long it bounces on.
-        let lawful = self.switcher.impacts[c].left.is_finite();
-        if lawful || !(self.switcher.train.is_long() && self.switcher.train.has(c)) {
+        if !(self.switcher.train.is_long() && self.switcher.train.has(c)) {
             return None;
         }
         let remaining = match self.switcher.train.remaining() {
@@ -324,6 +323,9 @@ impl<T: Scalar> Run<T> {
             None if self.is_unresolved() => 0.0,
             None => return None,
         };
+        // A contact that has a law of its own all the same bounces on for as long as that says.
+        let lawful = Some(self.switcher.impacts[c].left).filter(|left| left.is_finite());
+        let remaining = lawful.map_or(remaining, |left| left.max(remaining));
         // Where rounding hides which contact is hit next, nothing becomes more certain.
         let certain =
             remaining <= ESTIMATED * self.now.t.value().abs() || self.switcher.train.blurred;
@@ -463,6 +465,5 @@ impl<T: Scalar> Run<T> {
     pub(super) fn end(&mut self, c: usize, facts: &mut SwitchFacts) {
         (facts.touching[c], facts.parting[c]) = (true, false);
         self.switcher.impacts[c] = Impacts::default();
-        self.switcher.train.forget(c);
     }
 }
