@@ -193,6 +193,21 @@ impl Train {
         self.count += 1;
     }
 
+    /// Forgets the impacts of a contact that has come to rest since: those that it has now are of another train.
+    fn forget(&mut self, contact: usize) {
+        let hits = self.hits;
+        let remembered = self.count.saturating_sub(WINDOW)..self.count;
+        if remembered.clone().all(|k| hits[k % WINDOW].1 != contact) {
+            return;
+        }
+        self.count = 0;
+        for (time, other) in remembered.map(|k| hits[k % WINDOW]) {
+            if other != contact {
+                self.book(time, other);
+            }
+        }
+    }
+
     /// Whether there are enough impacts, of several contacts, to judge it.
     fn is_long(&self) -> bool {
         self.count >= WINDOW && self.hits.iter().any(|(_, c)| *c != self.hits[0].1)
@@ -233,6 +248,9 @@ impl<T: Scalar> Run<T> {
         for c in 0..self.description().contacts.len() {
             if !(outcome.struck[c] && facts.arriving[c]) {
                 continue;
+            }
+            if self.switcher.impacts[c].count == 0 {
+                self.switcher.train.forget(c);
             }
             self.switcher.train.book(self.now.t.value(), c);
             let ended = self.accumulate(c, outcome, facts);
@@ -305,12 +323,16 @@ impl<T: Scalar> Run<T> {
             None if self.is_unresolved() => 0.0,
             None => return None,
         };
+        // A contact that has a law of its own all the same bounces on for as long as that says.
+        let lawful = Some(self.switcher.impacts[c].left).filter(|left| left.is_finite());
+        let remaining = lawful.map_or(remaining, |left| left.max(remaining));
         // Where rounding hides which contact is hit next, nothing becomes more certain.
         let certain =
             remaining <= ESTIMATED * self.now.t.value().abs() || self.switcher.train.blurred;
         if !(certain && self.is_over_for_gaps(remaining, outcome)) {
             return None;
         }
+        let count = self.switcher.train.count;
         for c in 0..self.switcher.impacts.len() {
             if self.switcher.train.has(c) && self.vanishes(c) {
                 self.end(c, facts);
@@ -322,7 +344,6 @@ impl<T: Scalar> Run<T> {
         } else {
             0.0
         };
-        let count = self.switcher.train.count;
         self.switcher.train.restart();
         Some((count, T::from_f64(remaining)))
     }

@@ -6,7 +6,7 @@ use super::{Progress, Run};
 use crate::arithmetic::{Scalar, derivatives, epsilon};
 use crate::error::Error;
 use crate::modes::guard::Guard;
-use crate::trajectory::{EventKind, Subject};
+use crate::trajectory::{EventKind, State, Subject};
 
 /// This many events without any progress in time are a livelock.
 const MOST_EVENTS_AT_ONCE: usize = 40;
@@ -49,7 +49,9 @@ impl<T: Scalar> Run<T> {
         if end > 0.0 {
             self.slips_have_begun();
         }
-        self.meet_hit(hit, end)?;
+        if !self.recorder.finished {
+            self.meet_hit(hit, end)?;
+        }
         self.recorder.finished |= self.has_seen_all();
         // The marks of the step are among them.
         match !self.recorder.finished && self.events() > self.settings.max_events {
@@ -108,7 +110,12 @@ impl<T: Scalar> Run<T> {
             core::mem::swap(&mut self.now.state, &mut self.stepper.scratch);
             (self.now.valued, self.now.series) = (self.locator.rests.is_empty(), Progress::None);
         }
-        self.log_marks(end, exact.value());
+        if let Some(last) = self.log_marks(end, exact.value()) {
+            let State { q, v, .. } = &mut self.now.state;
+            self.stepper.step.state_into(last, q, v);
+            (end, exact) = (last.value(), last);
+            self.recorder.finished = true;
+        }
         self.look_for_still_watches(end);
         self.remember_sides(end);
         self.remember_regions(end);
@@ -132,7 +139,7 @@ impl<T: Scalar> Run<T> {
             if now - before > 2.0 * epsilon::<T>() * now.abs() {
                 self.switcher.stuck.clear();
             }
-            if let Some((_, error)) = refused {
+            if let Some((_, error)) = refused.filter(|_| !self.recorder.finished) {
                 return Err(error);
             }
             self.forget_zeros();

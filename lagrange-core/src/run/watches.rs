@@ -320,24 +320,31 @@ impl<T: Scalar> Run<T> {
     }
 
     /// Writes down the marks up to part `end` of the step, none of them after what ends it at part `last`, whatever rounding makes of their instants.
-    pub(super) fn log_marks(&mut self, end: f64, last: f64) {
+    /// The part at which the run ends after a mark, if it does before that.
+    pub(super) fn log_marks(&mut self, end: f64, last: f64) -> Option<T> {
         if self.locator.polynomials.marks.is_empty() {
-            return;
+            return None;
         }
         let mut marks = core::mem::take(&mut self.locator.marks);
         self.marks_until(end, &mut marks);
         if !marks.is_empty() && self.look_for_still_watches(end) {
             self.marks_until(end, &mut marks);
         }
-        let resolution = self.resolution_of_time() * self.stepper.step.h.value();
+        let part = self.resolution_of_time();
+        let resolution = part * self.stepper.step.h.value();
+        let mut ends: Option<T> = None;
         for &(mark, s) in &marks {
             let s = self.sharpened_mark(mark, s).min(last);
+            // Those of the same instant are passed with the last one.
+            if ends.is_some_and(|ends| s > ends.value() + part) {
+                break;
+            }
             let s = self.exact_mark(mark, s);
             let time = self.stepper.step.time(s);
             // Where a guard jumps steps are as short as time resolves, and rounding may put a term back to the side from which it has come; each of both
             // times is known to within the resolution.
-            let last = core::mem::replace(&mut self.locator.mark_times[mark], time.value());
-            if time.value() - last <= 2.0 * resolution {
+            let before = core::mem::replace(&mut self.locator.mark_times[mark], time.value());
+            if time.value() - before <= 2.0 * resolution {
                 continue;
             }
             self.now.valued = false;
@@ -345,8 +352,13 @@ impl<T: Scalar> Run<T> {
             let state = core::mem::take(&mut self.stepper.scratch);
             self.log_watch(Subject::Mark(mark), EventKind::Mark, time, &state);
             self.stepper.scratch = state;
+            // What happens at the end of the step happens with a mark there.
+            if s.value() < last - part && self.has_seen_all() {
+                ends = Some(s);
+            }
         }
         self.locator.marks = marks;
+        ends
     }
 
     /// Stops whose conditions the switch has just made true.

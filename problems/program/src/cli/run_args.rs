@@ -68,7 +68,6 @@ pub(super) struct Motion {
     until: Option<f64>,
     /// End the run after an event ("rim lost", or "floor impact 5" for the fifth); if given several times or of an array, once all of them
     /// have happened.
-    /// After a mark it ends with the step that contains it.
     #[arg(long, value_name = "EVENT")]
     end_after: Vec<String>,
     /// Move a start that violates a constraint onto it instead of refusing it.

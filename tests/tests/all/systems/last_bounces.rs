@@ -626,3 +626,60 @@ fn what_a_brake_stops_among_the_last_bounces_is_not_pushed_back() {
         }
     }
 }
+
+/// A ball that bounces to rest on the floor, is kicked up, and bounces to rest again; beside that it runs into a smooth wall.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = 10 * y,
+    force(kick: y = if(t <= 3, 0, if(t <= 3.2, push, 0))),
+    contact(floor: y >= 1, restitution = bounce),
+    contact(side: x <= 5, restitution = 1),
+    start(drop: y = 1 + height, der(x) = speed),
+)]
+struct Kicked {
+    height: f64,
+    bounce: f64,
+    push: f64,
+    speed: f64,
+}
+
+/// Each time the falls shrink geometrically. The impacts of both times and that with the wall are no train.
+#[test]
+fn a_ball_that_is_kicked_up_again_comes_to_rest_again() {
+    let scenes = [
+        (
+            0.9233906194481636,
+            0.5350311902650291,
+            58.53766177594673,
+            1.7436250635788708,
+        ),
+        (0.7, 0.55, 40.0, 2.3),
+        (1.1, 0.45, 71.0, 1.3),
+    ];
+    for (height, bounce, push, speed) in scenes {
+        let scene = Kicked {
+            height,
+            bounce,
+            push,
+            speed,
+        };
+        let shrinks = bounce / (1.0 - bounce);
+        let fall = (2.0 * height / 10.0_f64).sqrt();
+        let first = fall * (1.0 + 2.0 * shrinks);
+        // The kick lifts the ball by so much, and leaves it this velocity.
+        let (rate, lifted) = ((push - 10.0) * 0.2, (push - 10.0) * 0.02);
+        let down = (rate * rate + 20.0 * lifted).sqrt();
+        let second = 3.2 + (rate + down) / 10.0 + 2.0 * down / 10.0 * shrinks;
+        for (method, tolerance) in methods_at(METHODS, TOLERANCES) {
+            let motion = run_by(&scene, (method, tolerance), scene.at(Kicked::DROP), 20.0);
+            let what = format!("{scene:?} by {method} at {tolerance:e}");
+            let rests = times(&motion, "floor", "closed");
+            assert_eq!(rests.len(), 2, "{what}");
+            agree(&what, rests[0], first, 10.0 * tolerance);
+            agree(&what, rests[1], second, 10.0 * tolerance);
+            certified(&what, &motion);
+        }
+    }
+}

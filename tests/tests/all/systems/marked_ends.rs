@@ -127,3 +127,49 @@ fn a_stop_at_the_end_is_one_and_what_follows_is_not() {
         }
     }
 }
+
+/// A ball that bounces without loss, whose highest and lowest points are marked.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = gravity * y,
+    contact(floor: y >= 0, restitution = 1),
+    mark(turn: der(y)),
+    mark(high: y >= gravity / 16),
+    start(thrown: der(x) = 1, der(y) = gravity / 2),
+)]
+struct Thrown {
+    gravity: f64,
+}
+
+/// The ball turns each half second, every second time because it hits the floor, and rises to half of its height √(1/8) s before each highest point.
+#[test]
+fn a_run_that_ends_after_a_mark_ends_at_its_instant() {
+    let scene = Thrown { gravity: 9.81 };
+    let start = scene.at(Thrown::THROWN);
+    for method in METHODS {
+        let simulation = || Simulation::new(&scene).method(method).tolerance(1e-11);
+        for number in [1, 2, 3] {
+            let count = f64::from(number);
+            let rises = count - 0.5 - 0.125_f64.sqrt();
+            for (mark, time) in [(Thrown::TURN, count / 2.0), (Thrown::HIGH, rises)] {
+                let what = format!("{method}, number {number}");
+                let awaited = (mark, EventKind::Mark, number as usize);
+                let asked = [
+                    simulation().end_after(awaited),
+                    simulation().error(1e-8).end_after(awaited),
+                ];
+                for simulation in asked {
+                    let run = simulation.run(start.clone(), 0.0..9.0).expect("a run");
+                    let last = run.events().last().expect("a mark");
+                    assert_eq!(last.subject, Subject::from(mark), "{what}");
+                    assert_eq!(last.time, run.last_time(), "{what}");
+                    agree(&what, last.time, time, 1e-9);
+                    agree(&what, run.final_state().q[0], time, 1e-9);
+                    certified(&what, &run);
+                }
+            }
+        }
+    }
+}
