@@ -1,6 +1,14 @@
-//! Numbers as people write them: `1e-3`, `pi/3`; counts `400`, `1e6`.
+//! Numbers as people write them: `1e-3`, `pi/3`; counts `400`, `1e6`; and as they are shown.
 
 use lagrange_engine::diagnostics::Diagnostics;
+
+/// To six significant digits: no picture shows more. What is not finite is 0: JSON cannot hold it.
+pub(crate) fn significant(x: f64) -> f64 {
+    if !x.is_finite() || x == 0.0 {
+        return 0.0;
+    }
+    format!("{x:.5e}").parse().unwrap_or(0.0)
+}
 
 /// A finite number, or an expression that is one.
 ///
@@ -66,7 +74,7 @@ pub fn count(text: &str) -> Option<usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::{WITHOUT_UNIT, count, finite};
+    use super::{WITHOUT_UNIT, count, finite, significant};
     use core::f64::consts::PI;
 
     #[test]
@@ -135,5 +143,12 @@ mod tests {
         for wrong in ["", "0", "-1", "1.5", "1e-3", "inf", "nan", "x"] {
             assert_eq!(count(wrong), None, "{wrong}");
         }
+    }
+
+    #[test]
+    fn numbers_of_pictures_are_short_and_finite() {
+        assert_eq!(significant(1.0 / 3.0), 0.333333);
+        assert_eq!(significant(-0.0), 0.0);
+        assert_eq!(significant(f64::NAN), 0.0);
     }
 }

@@ -5,7 +5,7 @@ pub(crate) mod pieces;
 pub(crate) mod rounding;
 mod sampling;
 
-use crate::report::significant;
+use crate::number::significant;
 use crate::request::Request;
 use crate::request::event::events;
 use core::ops::Range;

@@ -118,14 +118,6 @@ pub(crate) fn one_mode(description: &Description) -> bool {
     d.contacts.is_empty() && d.frictions.is_empty() && d.branches.is_empty()
 }
 
-/// To six significant digits: no picture shows more. What is not finite is 0: JSON cannot hold it.
-pub(crate) fn significant(x: f64) -> f64 {
-    if !x.is_finite() || x == 0.0 {
-        return 0.0;
-    }
-    format!("{x:.5e}").parse().unwrap_or(0.0)
-}
-
 /// A ball without spin that strikes a corner of two rough walls along its bisector: its impact has two solutions.
 #[cfg(test)]
 const CORNER: &str = "
@@ -141,15 +133,3 @@ const CORNER: &str = "
 const PLANK: &str = "
     coordinates(y, phi), kinetic = (der(y)^2 + der(phi)^2) / 2, potential = 10 * y,
     contact(foot[k in 0..3]: y + (k - 1) * phi >= 0, restitution = 1/2), start(level: y = 1/5), until = 0.3,";
-
-#[cfg(test)]
-mod tests {
-    use super::significant;
-
-    #[test]
-    fn numbers_are_short_and_finite() {
-        assert_eq!(significant(1.0 / 3.0), 0.333333);
-        assert_eq!(significant(-0.0), 0.0);
-        assert_eq!(significant(f64::NAN), 0.0);
-    }
-}

@@ -1,9 +1,10 @@
 //! Film → plots: forces beside their limits, energies, work, and the phase plots.
 
-use super::super::{significant, with_unit};
+use super::super::with_unit;
 use super::difference::difference;
 use crate::film::Film;
 use crate::notation::symbol;
+use crate::number::significant;
 use crate::outcome::{Force, Outcome, Sample, Source, forces};
 use crate::quantity::{Quantity, force_word, limit_name};
 use lagrange_core::prelude::Ledger;

@@ -1,9 +1,10 @@
 //! Films → what the script of the page reads.
 
-use super::super::{one_mode, significant};
+use super::super::one_mode;
 use super::Shown;
 use super::curves::{Output, Plot, Portrait, outputs, over, plots, portraits};
 use crate::film::Film;
+use crate::number::significant;
 use crate::report::frames::{SPEEDS, span, usual_speed};
 use crate::report::picture::{Picture, Stage, pictures, stages};
 use crate::report::words::brief;

@@ -5,7 +5,7 @@ use super::impulse::{self, Rows};
 use super::{Column, hundredths};
 use crate::drawing;
 use crate::film::Film;
-use crate::report::significant;
+use crate::number::significant;
 use serde::Serialize;
 
 /// A force over time.

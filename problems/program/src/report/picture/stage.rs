@@ -8,8 +8,8 @@ use super::frame::{self, Newtons, largest};
 use super::impulse::{self, Rows};
 use crate::drawing::Arrow;
 use crate::film::Film;
+use crate::number::significant;
 use crate::outcome::Outcome;
-use crate::report::significant;
 use crate::space::{Solid, Space, UnitQuaternion, Vector};
 use serde::Serialize;
 
