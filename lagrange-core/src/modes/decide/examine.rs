@@ -387,7 +387,7 @@ impl<T: Scalar> Decider<T> {
     }
 
     /// Takes the sizes of what guards are made of. Inertia and forcing are the same in all modes, but for branches.
-    fn measure(&mut self, dynamics: &mut Dynamics<T>, facts: &SwitchFacts) {
+    pub(super) fn measure(&mut self, dynamics: &mut Dynamics<T>, facts: &SwitchFacts) {
         if !self.sized || facts.balanced.contains(&true) {
             dynamics.complete_outputs();
             self.take_sizes(dynamics);

@@ -39,6 +39,12 @@ use incipient::Beginning;
 use parts::Parts;
 use questions::Doubt;
 
+/// Accelerations that differ by no more than this share of the largest are the same,
+const SAME: f64 = 1e-9;
+
+/// and so are those that differ by no more than this share of what drives them.
+const STILL: f64 = 1e-12;
+
 /// The mode that goes on.
 #[derive(Clone, Debug)]
 pub struct Decision {
@@ -413,9 +419,11 @@ impl<T: Scalar> Decider<T> {
         for mode in candidates.iter() {
             match self.examine(dynamics, table, here, mode) {
                 Ok(true) => {
-                    let motion = dynamics.acceleration();
-                    if motions.iter().all(|other| differ(other, motion)) {
-                        motions.push(motion.iter().map(|a| a.value()).collect());
+                    let motion = dynamics.acceleration().iter().map(|a| a.value());
+                    let motion: Vec<f64> = motion.collect();
+                    self.measure(dynamics, here.facts);
+                    if motions.iter().all(|other| self.differ(other, &motion)) {
+                        motions.push(motion);
                         feasible.push(self.posed.clone());
                     }
                 }
@@ -425,8 +433,7 @@ impl<T: Scalar> Decider<T> {
         }
         // What a run takes may be one in which a contact carries nothing of what others hold.
         if let Ok(true) = self.search(dynamics, table, here, candidates) {
-            let differs = |other: &Vec<f64>| differ(other, &self.motion);
-            if motions.iter().all(differs) {
+            if motions.iter().all(|other| self.differ(other, &self.motion)) {
                 feasible.insert(0, self.best.clone());
             }
         }
@@ -546,7 +553,8 @@ impl<T: Scalar> Decider<T> {
                     self.keep(dynamics);
                 }
                 Ok(true) if best.is_some_and(|found| found.loose == loose) => {
-                    self.decision.ambiguous |= differ(&self.motion, dynamics.acceleration());
+                    self.measure(dynamics, here.facts);
+                    self.decision.ambiguous |= self.differ(&self.motion, dynamics.acceleration());
                 }
                 Ok(true) => {}
                 Ok(false) => evaluated = true,
@@ -626,6 +634,24 @@ impl<T: Scalar> Decider<T> {
         goes_on
     }
 
+    /// Whether two motions have other accelerations, by more than a share of the largest, and than rounding leaves of what drives each coordinate: bodies at
+    /// rest have none.
+    fn differ<S: Scalar>(&self, one: &[f64], other: &[S]) -> bool {
+        let pairs = || {
+            one.iter()
+                .zip(other)
+                .map(|(x, y)| (x.abs(), y.value().abs(), (x - y.value()).abs()))
+        };
+        let largest = pairs().fold(0.0_f64, |m, (x, y, _)| m.max(x).max(y));
+        // What has no inertia of its own moves with the others.
+        let driven = (0..one.len()).map(|j| self.sizes.of_coordinate(j));
+        let most = driven.clone().fold(0.0, f64::max);
+        let driven = driven.map(|size| if size > 0.0 { size } else { most });
+        let mut distances = pairs().zip(driven);
+        distances
+            .any(|((.., distance), driven)| distance > SAME * largest && distance > STILL * driven)
+    }
+
     /// Keeps the candidate examined last, which is feasible.
     fn keep(&mut self, dynamics: &Dynamics<T>) {
         core::mem::swap(&mut self.best, &mut self.posed);
@@ -667,13 +693,6 @@ fn sticks(mode: &Mode) -> usize {
         .iter()
         .filter(|f| matches!(f, FrictionMode::Stick))
         .count()
-}
-
-fn differ<T: Scalar>(a: &[f64], b: &[T]) -> bool {
-    let sizes = a.iter().copied().chain(b.iter().map(|x| x.value()));
-    let size = sizes.fold(0.0_f64, |m, x| m.max(x.abs()));
-    let mut pairs = a.iter().zip(b);
-    pairs.any(|(x, y)| (x - y.value()).abs() > 1e-9 * size)
 }
 
 fn concerned(d: &'static Description, facts: &SwitchFacts, present: &Mode) -> &'static str {

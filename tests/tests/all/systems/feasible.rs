@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, event, run_by};
+use lagrange_tests::{Random, agree, event, run_by};
 
 const G: f64 = 9.81;
 
@@ -228,5 +228,47 @@ fn what_has_been_overcome_lets_go() {
         for speed in &motion.final_state().v {
             agree(method, *speed, (22.0 - 18.0) / 2.0, 1e-8);
         }
+    }
+}
+
+/// A plank at rest on three feet, its weight aside of them all, in axes that are turned.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, phi),
+    define(height = x * sin(turn) + y * cos(turn)),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(phi)^2,
+    potential = mass * gravity * (height + aside * phi),
+    contact(foot[k in 0..3]: height + (k * step - first) * phi >= 0),
+)]
+struct ThreeFeet {
+    turn: f64,
+    mass: f64,
+    inertia: f64,
+    gravity: f64,
+    aside: f64,
+    step: f64,
+    first: f64,
+}
+
+/// It stands on any two feet that its weight is between, and on all three: all of that is one motion, rest, whatever rounding makes of its accelerations.
+#[test]
+fn a_body_at_rest_goes_on_in_one_mode() {
+    let mut random = Random::new(65);
+    for _ in 0..50 {
+        let first = random.between(0.1, 0.3);
+        let scene = ThreeFeet {
+            turn: random.between(0.1, 1.4),
+            mass: random.between(0.1, 3.0),
+            inertia: random.between(0.01, 1.0),
+            gravity: 9.81,
+            aside: random.between(-0.5, 0.5) * first,
+            step: random.between(0.2, 0.4) + first,
+            first,
+        };
+        let modes = Simulation::new(&scene).feasible_modes(0.0, state(&[0.0; 3], &[0.0; 3]));
+        let modes = modes.expect("a mode");
+        assert_eq!(modes.len(), 1, "{scene:?}");
+        let weight: f64 = modes[0].forces.iter().map(|force| force.abs()).sum();
+        agree("weight", weight, scene.mass * scene.gravity, 1e-12);
     }
 }
