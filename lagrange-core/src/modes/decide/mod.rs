@@ -432,10 +432,10 @@ impl<T: Scalar> Decider<T> {
             }
         }
         // What a run takes may be one in which a contact carries nothing of what others hold.
-        if let Ok(true) = self.search(dynamics, table, here, candidates) {
-            if motions.iter().all(|other| self.differ(other, &self.motion)) {
-                feasible.insert(0, self.best.clone());
-            }
+        if let Ok(true) = self.search(dynamics, table, here, candidates)
+            && motions.iter().all(|other| self.differ(other, &self.motion))
+        {
+            feasible.insert(0, self.best.clone());
         }
         self.listings = listings;
         match (feasible.is_empty(), failure) {
