@@ -99,7 +99,11 @@ impl<T: Scalar> Run<T> {
         let mut end = hit.end();
         self.refuse_hidden_corners(end)?;
         let mut exact = self.exact_end(hit);
-        let refused = self.friction_that_pushes(end);
+        let undirected = self.stepper.undirected.take().map(|item| {
+            let time = self.stepper.step.time(T::from_f64(end)).value();
+            (end, Error::Undirected { time, item })
+        });
+        let refused = self.friction_that_pushes(end).or(undirected);
         if let Some((first, _)) = &refused {
             (end, exact) = (*first, T::from_f64(*first));
         }
@@ -139,9 +143,11 @@ impl<T: Scalar> Run<T> {
             if now - before > 2.0 * epsilon::<T>() * now.abs() {
                 self.switcher.stuck.clear();
             }
-            if let Some((_, error)) = refused.filter(|_| !self.recorder.finished) {
-                return Err(error);
-            }
+        }
+        if let Some((_, error)) = refused.filter(|_| !self.recorder.finished) {
+            return Err(error);
+        }
+        if moves {
             self.forget_zeros();
             let steps = self.recorder.trajectory.work.steps;
             let stays = self.stepper.is_taylor() && !self.now.drifts;

@@ -47,6 +47,8 @@ pub(super) struct Stepper<T> {
     pub(super) astray: f64,
     /// Breaks of guards that were passed since the last step that no guard has bounded so.
     pub(super) breaks: usize,
+    /// The contact that the step ends at, if its gap has no direction there.
+    pub(super) undirected: Option<&'static str>,
     /// Steps that had been tried in vain when that was looked at last, and the time.
     pub(super) looked: (usize, f64),
     pub(super) stiffness: Stiffness<T>,
@@ -81,6 +83,7 @@ impl<T: Scalar> Stepper<T> {
             guarded: None,
             astray: 0.0,
             breaks: 0,
+            undirected: None,
             looked: NOT_LOOKED,
             stiffness: Stiffness::new(settings.method),
             resolution: Resolution::default(),

@@ -185,10 +185,7 @@ impl<T: Scalar> Run<T> {
                     if self.corrects_composites(&hit, looked, &mut corrections) {
                         continue;
                     }
-                    if let Some(item) = turns {
-                        let time = self.stepper.step.time(T::from_f64(end)).value();
-                        return Err(Error::Undirected { time, item });
-                    }
+                    self.stepper.undirected = turns;
                     self.now.distance = self.rank.reach(&self.dynamics);
                     self.stepper.breaks = match passes {
                         true => self.stepper.breaks + 1,

@@ -113,6 +113,13 @@ impl Settings {
                     "that of one that takes part: this one is left out, and so are its events";
                 return Err(argument(what, place.0 as f64, expected));
             }
+            if awaited
+                .kind
+                .is_some_and(|kind| !kind.happens_to(awaited.subject))
+            {
+                let expected = "that of an item to which an event of this kind can happen: contacts are hit, close and are lost, frictions slip and stick";
+                return Err(argument(what, place.0 as f64, expected));
+            }
             if awaited.number == 0 {
                 let what = "number of the event after which the run ends";
                 return Err(argument(

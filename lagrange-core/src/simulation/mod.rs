@@ -180,7 +180,7 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
 
     /// Ends the run once this has happened: any event of an item, `MassOnWheel::FLOOR`, one of a kind, `(MassOnWheel::RIM,
     /// EventKind::Lost)`, or the fifth of a kind, `(Ball::FLOOR, EventKind::Impact, 5)`. Given several times, once all of them have.
-    /// A run is refused if it is to end after event number 0, or after one of an item that is left out.
+    /// A run is refused if it is to end after event number 0, or after one that cannot happen to the item, or of an item that is left out.
     #[must_use]
     pub fn end_after(mut self, event: impl Into<Awaited>) -> Self {
         self.settings.last_events.push(event.into());

@@ -3,7 +3,8 @@
 //! Errors of a coordinate or velocity x are |Δx| / max(1, |x|), relative where x is large and absolute, in its own unit, where it
 //! is small; errors of times are the same in seconds. Where a coordinate has an absolute tolerance of its own, that size takes the place of 1. Impacts that accumulate are infinitely many, and how many of them a run
 //! follows one by one depends on its tolerance: those that only one of two runs follows have the error of the instant at which
-//! they end.
+//! they end. The same holds of the last turns of contacts that come to rest in turn, infinitely often, each by
+//! impacts that accumulate.
 
 use super::{EventKind, State, Trajectory};
 use crate::arithmetic::Scalar;
@@ -73,8 +74,20 @@ pub struct Estimate {
     pub difference: Difference,
 }
 
+/// Share of a time, s, or of a second: what goes on for longer than this after impacts have accumulated is a motion, and not the last of its turns.
+const LAST_TURNS: f64 = 1e-4;
+
 fn accumulates((_, kind, _): &Happening) -> bool {
     matches!(kind, EventKind::Accumulates { .. })
+}
+
+/// The last change of mode of an item.
+fn last_change(events: &[Happening], subject: Subject) -> Option<EventKind> {
+    use EventKind::{Closed, Lost, Slips, Sticks};
+    let changes = |kind: &EventKind| matches!(kind, Closed | Lost | Slips | Sticks);
+    let mut before = events.iter().rev();
+    let change = before.find(|(of, kind, _)| *of == subject && changes(kind));
+    change.map(|event| event.1)
 }
 
 /// |Δ| / max(size, |x|)
@@ -154,7 +167,7 @@ impl Summary {
             let (here, there) = (self.events.get(i), other.events.get(k));
             let ends =
                 |event: Option<&Happening>| event.filter(|e| accumulates(e)).map(|e| (e.0, e.2));
-            let next = if let Some(end) = ends(here).or(ends(there)) {
+            let pair = if let Some(end) = ends(here).or(ends(there)) {
                 let here = self.end_of_impacts(i, end);
                 here.zip(other.end_of_impacts(k, end))
             } else {
@@ -163,7 +176,12 @@ impl Summary {
                     .is_some_and(|(a, b)| (a.0, a.1) == (b.0, b.1));
                 same.then_some(((i, i + 1), (k, k + 1)))
             };
-            let Some(((event, i_next), (counterpart, k_next))) = next else {
+            let next = pair.map(|((event, i_next), (counterpart, k_next))| {
+                let apart = self.events[event].2 - other.events[counterpart].2;
+                ((i_next, k_next), apart.abs(), self.events[event].2)
+            });
+            let next = next.or_else(|| self.last_turns(i, other, k));
+            let Some(((i_next, k_next), apart, time)) = next else {
                 let parting = (here.is_some() || there.is_some()).then(|| Parting {
                     time: here.or(there).map_or(self.time, |event| event.2),
                     here: self.words(i),
@@ -171,8 +189,6 @@ impl Summary {
                 });
                 return (differences, largest, parting);
             };
-            let time = self.events[event].2;
-            let apart = (time - other.events[counterpart].2).abs();
             differences.extend(repeat_n(apart, i_next - i));
             let error = relative(apart, time, 1.0);
             largest = Some(largest.map_or(error, |largest| largest.max(error)));
@@ -196,6 +212,46 @@ impl Summary {
         let time = coming[found].2;
         let after = coming[found..].iter().take_while(|event| event.2 == time);
         Some((from + found, from + found + after.count()))
+    }
+
+    /// Where contacts come to rest in turn, from event `i` of this run and `k` of another one: the first events after that, how far apart the ends of it
+    /// are, and when it ends. Both runs end in the same mode.
+    fn last_turns(
+        &self,
+        i: usize,
+        other: &Summary,
+        k: usize,
+    ) -> Option<((usize, usize), f64, f64)> {
+        let first = [self.events.get(i), other.events.get(k)];
+        let begin = first.into_iter().flatten().map(|event| event.2);
+        let begin = begin.min_by(f64::total_cmp)?;
+        let until = begin + LAST_TURNS * begin.abs().max(1.0);
+        let (i_next, k_next) = (self.after_turns(i, until), other.after_turns(k, until));
+        let (here, there) = (&self.events[..i_next], &other.events[..k_next]);
+        let told = || here[i..].iter().chain(&there[k..]);
+        let mut events = here.iter().chain(there);
+        let in_turn =
+            events.any(|event| accumulates(event) && told().any(|told| told.0 == event.0));
+        let alike =
+            |&(subject, ..): &Happening| last_change(here, subject) == last_change(there, subject);
+        if !in_turn || !told().all(alike) {
+            return None;
+        }
+        let end = here.last()?.2;
+        Some(((i_next, k_next), (end - there.last()?.2).abs(), end))
+    }
+
+    /// The first event from `from` on that is later than this, or none of a contact or of its friction.
+    fn after_turns(&self, from: usize, time: f64) -> usize {
+        use EventKind::{Accumulates, Closed, Impact, Lost, Reverses, Slips, Sticks};
+        let switches = self.events[from..].iter().take_while(|(_, kind, at)| {
+            let kinds = matches!(
+                kind,
+                Lost | Closed | Impact | Accumulates { .. } | Slips | Sticks | Reverses
+            );
+            kinds && *at <= time
+        });
+        from + switches.count()
     }
 
     /// `rim lost`, or `the end`.

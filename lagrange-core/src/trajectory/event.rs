@@ -56,6 +56,22 @@ impl EventKind {
             EventKind::Mark => "mark",
         }
     }
+
+    /// Whether this can happen to such an item.
+    pub fn happens_to(self, subject: Subject) -> bool {
+        use EventKind::{
+            Accumulates, Ambiguous, Branches, Closed, Impact, Lost, Mark, Reverses, Slips, Sticks,
+            Stop,
+        };
+        match self {
+            Lost | Closed | Impact | Accumulates { .. } => matches!(subject, Subject::Contact(_)),
+            Slips | Sticks | Reverses => matches!(subject, Subject::Friction(_)),
+            Ambiguous => matches!(subject, Subject::Contact(_) | Subject::Friction(_)),
+            Branches => matches!(subject, Subject::Branch(_)),
+            Stop => matches!(subject, Subject::Stop(_)),
+            Mark => matches!(subject, Subject::Mark(_)),
+        }
+    }
 }
 
 /// One entry of the event log.

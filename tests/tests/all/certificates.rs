@@ -131,6 +131,7 @@ fn slips_that_come_to_rest_at_tight_tolerances_are_neither_jumps_nor_wrong_force
 /// A ball bounces beside a puck that slides.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, z),
     kinetic = (der(x)^2 + der(y)^2 + der(z)^2) / 2,
     potential = gravity * z,
@@ -231,6 +232,7 @@ fn what_is_all_rounding_is_no_error() {
 /// What is moved evenly by formulas whose accelerations cancel, and a block that a square wave pushes.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, z, u),
     kinetic = (der(x)^2 + der(y)^2 + der(z)^2 + der(u)^2)/2,
     constraint(root: x == sqrt(t^2 + 2*a*t + a^2) - a),
@@ -268,6 +270,7 @@ fn accelerations_that_cancel_and_a_change_at_the_end_are_no_error() {
 /// A piston that a crank moves, with gas on it on its way down, rubs on the wall of its cylinder.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(phi, psi, x, y),
     define(
         pin = [arm*sin(phi), arm*cos(phi)],
@@ -351,6 +354,7 @@ fn fixed_steps_that_divide_the_time_end_with_it() {
 /// Six blocks in a row, of which the first is pushed and held.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x[6]),
     kinetic = sum(i in 0..6: der(x[i])^2) / 2,
     contact(touch[i in 0..5]: x[i+1] - x[i] >= 1),
@@ -411,6 +415,7 @@ fn stops_that_jump_and_marks_of_the_time_are_met() {
 /// A load on the floor, hoisted by a rope whose sheave has a seal that is switched off.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(z, s, turn),
     kinetic = 50 * der(z)^2 + der(s)^2 + der(turn)^2/100,
     potential = 981 * z,

@@ -233,6 +233,59 @@ fn the_end_of_impacts_of_two_contacts_is_as_certain_as_the_tolerance() {
     }
 }
 
+/// A box of half width `wide` and half height `high` falls on corners that rebound.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y, theta),
+    kinetic = der(y)^2 / 2 + (wide^2 + high^2) / 6 * der(theta)^2,
+    potential = 9.81 * y,
+    contact(left: y - wide * sin(theta) - high * cos(theta) >= 0, restitution = bounce),
+    contact(right: y + wide * sin(theta) - high * cos(theta) >= 0, restitution = bounce),
+    start(tilted: y = drop + high * cos(tilt) + wide * sin(tilt), theta = tilt),
+)]
+struct Crate {
+    wide: f64,
+    high: f64,
+    bounce: f64,
+    tilt: f64,
+    drop: f64,
+}
+
+/// One corner bounces infinitely often while the other rests, and then the other way round, infinitely often.
+#[test]
+fn corners_that_come_to_rest_in_turn_are_as_certain_as_their_last_turns_are_short() {
+    for (wide, high, bounce, tilt, drop) in [
+        (0.5, 1.0, 0.1, 0.05, 1.0),
+        (0.4, 0.9, 0.2, 0.08, 0.3),
+        (0.5, 0.7, 0.3, 0.03, 0.6),
+        (0.7, 0.6, 0.15, 0.1, 0.8),
+        (0.6, 0.5, 0.25, 0.05, 0.4),
+    ] {
+        let box_ = Crate {
+            wide,
+            high,
+            bounce,
+            tilt,
+            drop,
+        };
+        let run = |simulation: Simulation<Crate>| {
+            let run = simulation.run(box_.at(Crate::TILTED), 0.0..20.0);
+            run.unwrap_or_else(|failure| panic!("{box_:?}: {failure}"))
+        };
+        let truth = run(Simulation::new(&box_).tolerance(1e-14));
+        let rest = |run: &Trajectory<f64>| run.events().last().expect("it rests").time;
+        // In a hundred-millionth of a second the corners rise by no more than rounding: that is how well the last turns are known.
+        for error in [1e-4, 1e-6, 1e-7] {
+            let found = run(Simulation::new(&box_).error(error));
+            agree("rest", rest(&found), rest(&truth), error);
+            agree("height", found.final_state().q[0], high, error);
+            let estimate = found.estimate().expect("estimated");
+            assert_eq!(estimate.difference.parting, None);
+            assert_eq!(estimate.difference.events.len(), found.events().len());
+        }
+    }
+}
+
 #[test]
 fn chaos_says_what_can_be_had() {
     let chain = Chain {

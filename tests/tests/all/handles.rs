@@ -190,9 +190,10 @@ fn a_handle_of_another_system_is_refused() {
     };
     refused(Simulation::new(&ball).effects(Effects::all().without(Wheel::GRIP)));
     refused(Simulation::new(&ball).end_after(Wheel::FLOOR));
-    // What is left out has no events, and there is no event number 0.
+    // What is left out has no events, a floor does not slip, and there is no event number 0.
     let without = Simulation::new(&ball).effects(Effects::all().without(Ball::FLOOR));
     refused(without.end_after(Ball::FLOOR));
+    refused(Simulation::new(&ball).end_after((Ball::FLOOR, EventKind::Slips)));
     refused(Simulation::new(&ball).end_after((Ball::FLOOR, EventKind::Impact, 0)));
 }
 

@@ -96,7 +96,7 @@ impl Linear {
             self.rays.push(Ray::Press(k));
         }
         for (r, rub) in c.rubs.iter().enumerate() {
-            if matches!(rub.bearer, NormalSource::ContactRow(k) if !phase.within[k]) {
+            if !phase.includes(rub) {
                 continue;
             }
             let sides = if rub.components == 1 { 2 } else { SIDES };

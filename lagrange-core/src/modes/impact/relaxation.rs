@@ -101,7 +101,7 @@ impl Relaxation {
     /// The greatest impulse of friction `r`.
     fn limit<T: Scalar>(&self, c: &Collision<T>, phase: &Phase<T>, r: usize) -> f64 {
         let rub = &c.rubs[r];
-        if matches!(rub.bearer, NormalSource::ContactRow(k) if !phase.within[k]) {
+        if !phase.includes(rub) {
             return 0.0;
         }
         self.coefficients[r] * rub.factor.value() * self.impulses[c.bearing_row(rub)].abs()

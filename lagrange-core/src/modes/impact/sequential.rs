@@ -89,6 +89,9 @@ impl<T: Scalar> Turns<T> {
             for (within, touch) in law.phase.within.iter_mut().zip(&c.touches) {
                 *within = self.groups[touch.row] == group;
             }
+            let apart = self.groups.iter().map(|other| *other != group);
+            law.phase.apart.clear();
+            law.phase.apart.extend(apart);
             if !law.solve(c, &self.rates) {
                 return Err(Stuck::Unsolved(k));
             }
@@ -108,6 +111,7 @@ impl<T: Scalar> Turns<T> {
         (self.undetermined, self.lowered, self.ambiguous, self.count) = (false, false, false, 0);
         law.phase.within.clear();
         law.phase.within.resize(c.touches.len(), false);
+        law.phase.apart.clear();
     }
 
     /// Adds an impact.

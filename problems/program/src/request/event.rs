@@ -78,20 +78,7 @@ pub(crate) fn event(
     let subject = subjects(d).find(|subject| subject.name(d) == item);
     let subject = subject
         .ok_or_else(|| Refusal::unknown("contact, friction, stop or mark", item, names()))?;
-    let suits = |kind: &&EventKind| match subject {
-        Subject::Contact(_) => matches!(
-            kind,
-            EventKind::Lost | EventKind::Closed | EventKind::Impact | EventKind::Accumulates { .. }
-        ),
-        Subject::Friction(_) => matches!(
-            kind,
-            EventKind::Slips | EventKind::Sticks | EventKind::Reverses
-        ),
-        Subject::Stop(_) => matches!(kind, EventKind::Stop),
-        Subject::Mark(_) => matches!(kind, EventKind::Mark),
-        Subject::Branch(_) => matches!(kind, EventKind::Branches),
-    };
-    let kinds = || KINDS.iter().filter(suits);
+    let kinds = || KINDS.iter().filter(|kind| kind.happens_to(subject));
     let found = match kind {
         // A stop or a mark has one kind of event only.
         "" if kinds().count() == 1 => kinds().next(),

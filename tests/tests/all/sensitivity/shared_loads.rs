@@ -21,6 +21,7 @@ fn forces<T: Runnable>(motion: &Trajectory<T>, at: f64) -> Vec<T> {
 /// A plank on three feet, 1 to the left of its centre and two on its right; a load wanders along it.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, theta),
     define(foot = [-1, inner, outer], place = from + speed*t),
     kinetic = mass/2 * (der(x)^2 + der(y)^2 + der(theta)^2/3),
@@ -166,6 +167,7 @@ fn the_feet_of_a_crate_share_a_pull_near_its_limit() {
 /// Two brakes hold a slider that is pushed more and more; that of one grows with the time.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x),
     kinetic = mass/2*der(x)^2,
     force(push: x = rate*t),
@@ -211,6 +213,7 @@ fn brakes_that_share_a_push_let_go_when_both_have_reached_their_limits() {
 /// A rod whose ends strike a rough floor at once and stick, one of them at its limit.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, theta),
     define(
         side = [-1, 1],

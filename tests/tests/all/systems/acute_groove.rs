@@ -7,6 +7,7 @@ use lagrange_tests::{METHODS, Random, certified, methods_at, run_by};
 /// The groove runs along y; its sides rise at `left` and `right` from the ground.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, z),
     kinetic = (der(x)^2 + der(y)^2 + der(z)^2) / 2,
     potential = 10 * z,

@@ -111,6 +111,7 @@ fn stops_near_aligned_bars_are_where_they_should_be() {
 /// A crank and a rocker of lengths `crank` and `rocker`, pivoted `ground` apart, with a coupler: at some position all bars can be aligned.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(a, phi, b),
     kinetic = inertia/2 * der(a)^2 + 0.7/2 * der(phi)^2 + der(b)^2/2,
     constraint(sideways: crank * cos(a) + coupler * cos(phi) == ground * cos(turn) + rocker * cos(b)),

@@ -8,6 +8,7 @@ use lagrange_tests::{METHODS, Random, TOLERANCES, agree, certified, methods_at, 
 /// the time: what is lifted with it before it rests is pressed by less than its weight.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2)/2,
     potential = 9.81*y,
@@ -62,6 +63,7 @@ fn a_lifter_that_comes_to_rest_under_a_block_does_not_hit_it() {
 /// Three of them in turn: as one begins to sink the next has just arrived.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2)/2,
     potential = 9.81*y,

@@ -10,6 +10,7 @@ use lagrange_tests::{
 /// A block on a spring on a rough floor, under a load.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = mass/2 * (der(x)^2 + der(y)^2),
     potential = mass * gravity * y + stiffness/2 * x^2,
@@ -97,6 +98,7 @@ fn a_bead_comes_back_to_where_it_presses_with_nothing() {
 /// A bead of 1 kg on a rough curve of second order.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     potential = gravity * y,
@@ -151,6 +153,7 @@ fn a_bead_where_a_curve_is_just_as_steep_as_friction_holds_stays() {
 /// A crate on two rough feet under a push that just does not tip it.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, z, tilt),
     define(
         left = [x - half*cos(tilt) + low*sin(tilt), z - half*sin(tilt) - low*cos(tilt)],
@@ -257,6 +260,7 @@ fn a_crate_tips_a_little_before_it_would_slide() {
 /// A body that two brakes hold together, pushed by what a load becomes at an instant.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x),
     kinetic = der(x)^2/2,
     friction(one: slip = der(x), limit = (share, share/2)),
@@ -297,6 +301,7 @@ fn brakes_hold_a_load_that_stops_growing_at_their_limit() {
 /// A body in two guides with friction, one of which also holds across the other: so the load of that passes zero.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, z),
     kinetic = mass/2*(der(x)^2 + der(y)^2 + der(z)^2),
     constraint(guide: y == 0),

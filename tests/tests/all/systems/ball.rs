@@ -151,6 +151,7 @@ fn a_ceiling_is_missed_grazed_or_hit() {
 /// Two balls over one floor, that know nothing of each other.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(y[2]),
     kinetic = sum(k in 0..2: mass[k]/2 * der(y[k])^2),
     potential = sum(k in 0..2: mass[k] * gravity * y[k]),
@@ -201,6 +202,7 @@ fn two_balls_that_land_together_do_as_each_alone() {
 /// A ball that flies into a corner.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = mass/2 * (der(x)^2 + der(y)^2),
     contact(wall: x >= 0, restitution = 1),

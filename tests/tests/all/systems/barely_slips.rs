@@ -138,6 +138,7 @@ fn a_block_on_four_feet_that_is_hardly_pushed_slides() {
 /// A point on a plate, with a friction of two components, that a friction along an oblique line holds as well.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, z),
     kinetic = (der(x)^2 + der(y)^2 + der(z)^2)/2,
     define(line = [cos(turn)*sin(tilt), sin(turn)*sin(tilt), cos(tilt)]),
@@ -217,6 +218,7 @@ fn a_slip_begins_in_the_only_direction_that_another_friction_leaves() {
 /// A trestle that is pushed ever harder through the middle of its feet.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, turn, z, tilt[2]),
     define(
         place[k in 0..4] = [x + a[k]*cos(turn) - b[k]*sin(turn), y + a[k]*sin(turn) + b[k]*cos(turn)],

@@ -11,6 +11,7 @@ use lagrange_tests::{
 /// A body on a pin of some radius, which may be struck by a ball.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, theta, b),
     kinetic = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(theta)^2 + ball/2 * der(b)^2,
     potential = mass * gravity * y,
@@ -197,6 +198,7 @@ fn a_blow_on_a_journal() {
 /// A bead on a helix. Both constraints that press are distances across the wire, in directions at right angles; the slip is the bead's own velocity.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, z, phi),
     define(c = radius / sqrt(radius^2 + pitch^2)),
     kinetic = mass/2 * (der(x)^2 + der(y)^2 + der(z)^2),
@@ -247,6 +249,7 @@ fn a_bead_climbs_a_helix() {
 /// A sleeve on a rail, pressed by a force across that changes its sign, and by a small one down.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, z),
     kinetic = mass/2 * (der(x)^2 + der(y)^2 + der(z)^2),
     force(across: y = side * cos(rate * t)),
@@ -480,6 +483,7 @@ fn derivatives_go_through_bearings() {
 /// A bar on a journal, at rest beside a wall from which a motor pulls it away.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, theta),
     kinetic = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(theta)^2,
     potential = mass * gravity * y,

@@ -54,6 +54,7 @@ fn what_comes_before_the_last_bounce_is_not_put_off() {
 /// Balls one upon the other. The floor gives back what it takes; they lose to each other what they fall with.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(low, middle, high),
     kinetic = (first * der(low)^2 + second * der(middle)^2 + der(high)^2) / 2,
     potential = 10 * (first * low + second * middle + high),
@@ -95,6 +96,7 @@ fn a_column_on_an_elastic_floor_comes_to_rest() {
 /// A light plank that is pulled up, and falls onto a stop that gives nothing back; a block slides and bounces on it.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(plank, x, block),
     kinetic = (light * der(plank)^2 + heavy * (der(x)^2 + der(block)^2)) / 2,
     potential = heavy * 10 * block,

@@ -7,6 +7,7 @@ use lagrange_tests::agree;
 /// A ball without forces in a square with a disc in its middle (Sinai 1970).
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     contact(left: x >= -1, restitution = 1),
@@ -43,6 +44,7 @@ fn what_rounding_leaves_open_is_not_promised() {
 /// The same without the disc: a coordinate goes to and fro by itself, which is no chaos.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     contact(left: x >= -wide, restitution = 1),

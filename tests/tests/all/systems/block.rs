@@ -7,6 +7,7 @@ use lagrange_tests::{agree, closure, run, words};
 /// A block on an incline.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(s, n),
     kinetic = mass/2 * (der(s)^2 + der(n)^2),
     potential = mass * gravity * (n * cos(slope) - s * sin(slope)),
@@ -72,6 +73,7 @@ fn a_block_on_an_incline_stops_and_stays_or_turns_back() {
 /// A block on a belt, held by a spring.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(s, n),
     kinetic = mass/2 * (der(s)^2 + der(n)^2),
     potential = mass * gravity * n + stiffness/2 * s^2,
@@ -145,6 +147,7 @@ fn a_block_exactly_at_the_limit_has_an_answer() {
 /// A block that is pulled ever harder.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(s, n),
     kinetic = mass/2 * (der(s)^2 + der(n)^2),
     potential = mass * gravity * n,

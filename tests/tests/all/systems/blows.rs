@@ -7,6 +7,7 @@ use lagrange_tests::{agree, closure, event, run, words};
 /// A block slides on the floor into a wall that leans over it by β.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = mass/2 * (der(x)^2 + der(y)^2),
     potential = mass * gravity * y,
@@ -76,6 +77,7 @@ fn an_impact_at_the_first_instant_is_an_impact() {
 /// A bead on a rough straight wire flies against an inclined plate.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = mass/2 * (der(x)^2 + der(y)^2),
     constraint(wire: y == 0),
@@ -120,6 +122,7 @@ fn friction_on_a_constraint_acts_in_an_impact_whichever_side_presses() {
 /// A block that a clamp holds, struck by a ball.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, ball),
     kinetic = mass/2 * der(x)^2 + light/2 * der(ball)^2,
     contact(face: x >= ball, restitution = e),
@@ -160,6 +163,7 @@ fn a_friction_of_given_limit_slips_after_a_blow() {
 /// Three supports under a beam that falls flat: more contacts than a plane needs.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(y, theta),
     kinetic = mass/2 * der(y)^2 + inertia/2 * der(theta)^2,
     potential = mass * gravity * y,
@@ -204,6 +208,7 @@ fn impulses_of_three_supports_are_shared_and_flagged() {
 /// A ball dropped onto a belt that runs, over a floor that rises.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = mass/2 * (der(x)^2 + der(y)^2),
     contact(floor: y >= rise * t, restitution = e),

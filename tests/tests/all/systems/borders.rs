@@ -213,6 +213,7 @@ fn what_rests_has_no_velocity() {
 /// A block on a belt and on a floor, both of which stop at once.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic   = (der(x)^2 + der(y)^2) / 2,
     potential = gravity * y,

@@ -8,6 +8,7 @@ use lagrange_tests::{METHODS, Random, TOLERANCES, agree, certified, methods_at, 
 /// A brake shoe on a running drum, in a guide with dry friction.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(p, u),
     kinetic = drum/2 * der(p)^2 + der(u)^2/2,
     contact(shoe: u >= 0),
@@ -60,6 +61,7 @@ fn a_guide_holds_its_shoe() {
 /// A block that is pressed to a wall, which holds it, above a running belt, and a ball that falls beside it.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, z, ball),
     kinetic = (der(x)^2 + der(y)^2 + der(z)^2 + der(ball)^2)/2,
     potential = 10 * (y + ball),

@@ -7,6 +7,7 @@ use lagrange_tests::{Random, SINGLE_METHODS, TOLERANCES, agree, methods_at, run_
 /// The front axle turns by a, the rear one by b.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, a, b),
     kinetic = mass/2 * der(x)^2 + inertia/2 * (der(a)^2 + der(b)^2),
     potential = weight * sin(slope) * x,

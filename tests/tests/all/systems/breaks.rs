@@ -114,6 +114,10 @@ fn a_point_that_is_hit_has_no_direction() {
             };
             assert_eq!(item, "peg");
             agree("time", time, flight, 10.0 * tolerance);
+            // The flight up to there is kept.
+            let flown = failure.trajectory;
+            agree("end", flown.last_time(), time, 1e-15);
+            agree("x", flown.final_state().q[0], 2.0, 10.0 * tolerance);
         }
     }
 }
@@ -207,6 +211,7 @@ fn a_rope_through_its_anchor() {
 /// A bob on a rod that goes over the top, where the angle jumps from π to −π.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     define(angle = atan2(x, -y)),
     kinetic = (der(x)^2 + der(y)^2) / 2,
@@ -332,6 +337,7 @@ fn a_watch_that_overflows_is_an_error_that_says_so() {
 /// A ram falls onto a pile in soil that holds it the better the deeper it is.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(ram, pile),
     kinetic = mass/2 * (der(ram)^2 + der(pile)^2),
     potential = gravity * mass * (ram + pile),

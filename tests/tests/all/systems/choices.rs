@@ -8,6 +8,7 @@ use lagrange_tests::{METHODS, agree, event, run, run_by, runge_kutta, words};
 /// takes its rest, and gives it its speed.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(lower, upper, ball),
     kinetic = light/2 * der(lower)^2 + heavy/2 * (der(upper)^2 + der(ball)^2),
     force(drive: upper = push),
@@ -84,6 +85,7 @@ fn of_two_modes_that_stick_as_much_the_present_one_goes_on() {
 /// A cupboard that is pushed at its upper edge, harder and harder.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, tilt),
     define(
         right = [cos(tilt), -sin(tilt)],
@@ -161,6 +163,7 @@ fn what_holds_goes_on_to_hold_though_a_contact_opens() {
 /// A lift that stands on the ground and is held by its guide, which could not hold it alone, beside a cart whose brake a motor overcomes.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(cart, lift),
     kinetic = cart_mass/2 * der(cart)^2 + mass/2 * der(lift)^2,
     potential = mass * gravity * lift,

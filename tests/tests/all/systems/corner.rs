@@ -166,6 +166,7 @@ fn a_table_falls_back_on_both_of_its_feet() {
 /// A block that a wall pushes to and fro falls onto a rough floor that moves with the wall.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     define(face = reach*sin(rate*t)),
     kinetic = (der(x)^2 + der(y)^2)/2,
@@ -284,6 +285,7 @@ fn a_cube_that_a_wall_has_pushed_slides_on() {
 /// A rod that is pushed into a corner lies all but flat on the floor.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, p),
     kinetic = (der(x)^2 + der(y)^2)/2 + der(p)^2/6,
     potential = 9.81*y,
@@ -335,6 +337,7 @@ fn a_rod_that_lies_all_but_flat_falls() {
 /// A wheel pressed into a rough corner, which a motor turns to and fro.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, turn),
     kinetic = mass/2 * (der(x)^2 + der(y)^2) + mass*radius^2/4 * der(turn)^2,
     potential = mass*9.81*y - press*x,

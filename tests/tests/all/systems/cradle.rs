@@ -7,6 +7,7 @@ use lagrange_tests::{METHODS, Random, TOLERANCES, agree, closure, methods_at, ru
 /// Two balls on a line, and a wall.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x[3]),
     kinetic = sum(i in 0..3: mass[i]/2 * der(x[i])^2),
     contact(pair[k in 0..2]: x[k+1] - x[k] >= 0, restitution = bounce),
@@ -111,6 +112,7 @@ fn collisions_one_after_the_other_agree_with_those_by_hand() {
 /// Carts side by side, each on a spring of its own, and one that strikes the others.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x[4]),
     kinetic = sum(k in 0..4: mass/2 * der(x[k])^2),
     potential = sum(k in 0..4: stiffness/2 * x[k]^2),
@@ -155,6 +157,7 @@ fn what_touches_and_carries_nothing_stays_closed() {
 /// Balls on springs of one frequency, which all pass their middle at once.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x[4]),
     kinetic = sum(i in 0..4: mass[i]/2 * der(x[i])^2),
     potential = sum(i in 0..4: mass[i]/2 * x[i]^2),

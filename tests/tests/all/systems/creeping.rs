@@ -9,6 +9,7 @@ use lagrange_tests::{agree, methods_at, run_by, words};
 /// Two sleeves in oil, with a dashpot between them.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     potential = stiffness/2 * (x^2 + y^2),

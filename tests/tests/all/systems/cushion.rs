@@ -5,6 +5,7 @@ use lagrange_tests::{Random, agree, certified, event, first_start, run_by, words
 
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, z),
     attitude(ball: q),
     define(p = [x, y, z], spin = ball.space_rate),

@@ -67,6 +67,7 @@ fn passages_of_dead_points_keep_the_tolerance() {
 /// its acceleration.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(a, b),
     define(x = r * cos(a) + l * cos(b)),
     kinetic = crank/2 * der(a)^2 + piston/2 * der(x)^2,
@@ -150,6 +151,7 @@ fn a_rod_without_mass_passes_its_dead_centres() {
 /// A crank turns a yoke that rubs on its guide.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(theta, x),
     kinetic = inertia/2 * der(theta)^2 + mass/2 * der(x)^2,
     constraint(slot: x == crank * cos(theta)),
@@ -232,6 +234,7 @@ fn nor_does_it_however_slowly_it_begins() {
 /// A shaft that rubs in its hub, and by an eccentric in the place where that is in its dead centre.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(theta),
     kinetic = inertia/2 * der(theta)^2,
     force(motor: theta = torque),
@@ -341,6 +344,7 @@ fn a_start_that_other_velocities_satisfy_is_refused() {
 /// A crank that is a body in space, on a hinge, moves a cross-head that rubs.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x),
     attitude(crank: q),
     kinetic = inertia/2*dot(crank.body_rate, crank.body_rate) + mass/2*der(x)^2,
@@ -402,6 +406,7 @@ fn a_crank_in_space_passes_its_dead_centres() {
 /// A leg of two links that hangs from a hip and stands on the ground, its knee at its stop.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(a, b),
     define(
         thigh = [sin(a)/2, -cos(a)/2],
@@ -455,6 +460,7 @@ fn a_straight_leg_slips_as_its_knee_gives_way() {
 /// A motor turns a crank whose slider rubs on its guide, which carries its weight and the thrust of the rod.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(a, x, y, b),
     define(rod_x = r*cos(a) + l/2*cos(b), rod_y = r*sin(a) + l/2*sin(b)),
     kinetic = 0.006*der(a)^2 + rod/2*(der(rod_x)^2 + der(rod_y)^2) + rod*l^2/24*der(b)^2 + (der(x)^2 + der(y)^2),

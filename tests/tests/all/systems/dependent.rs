@@ -9,6 +9,7 @@ use lagrange_tests::{
 /// A pendulum with a flywheel. (x, y) is its direction: a unit vector, and once more by its angle.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, theta),
     kinetic = mass * length^2 / 2 * (der(x)^2 + der(y)^2) + inertia/2 * der(theta)^2,
     potential = mass * gravity * length * y,

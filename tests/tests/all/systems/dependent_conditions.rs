@@ -24,6 +24,7 @@ struct Magnet {
 /// A block whose drive is a controller with a limit; what it is to follow jumps to and fro.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     potential = y,
@@ -88,6 +89,7 @@ fn rests(what: String, run: &Trajectory) {
 /// A body bounces between two walls; what drives a block on a rough floor depends on how fast it is, up to a limit.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, block),
     kinetic = (der(x)^2 + der(block)^2) / 2,
     contact(left: x >= 0, restitution = 1),
@@ -161,6 +163,7 @@ fn at_the_edge_of_ice_it_slides_onto_the_ice() {
 /// What moves is the same whether its load is written with an outer condition or without.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     friction(outer: slip = der(x) - 1, normal = abs(if(sin(rate * t) >= 0, high, -low)), static = 0.3),

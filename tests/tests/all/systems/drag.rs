@@ -178,6 +178,7 @@ fn a_rest_that_is_not_the_only_motion_is_refused() {
 /// A bead in a round bowl, told by where it is; and by its angle.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     define(v = der([x, y]), far = norm([x, y])),
     kinetic = dot(v, v)/2,

@@ -7,6 +7,7 @@ use lagrange_tests::{METHODS, agree, certified, methods_at, run_by};
 /// Pulled aside its middle, so that it presses against a guide in front and against one behind.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, turn),
     kinetic = (der(x)^2 + der(y)^2 + der(turn)^2) / 2,
     force(hand: x = pull * t),

@@ -23,6 +23,7 @@ pub(super) const FIXED: f64 = 1e-9;
 /// A disc set down on a wet floor, which spins it up.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, phi),
     define(foot = der(x) - radius * der(phi)),
     kinetic = mass/2 * (der(x)^2 + der(y)^2) + mass * radius^2 / 4 * der(phi)^2,
@@ -69,6 +70,7 @@ fn a_slip_that_decays() {
 /// A block on a spring, in a film of oil.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     potential = stiffness/2 * x^2 + gravity * y,
@@ -244,6 +246,7 @@ fn one_coefficient_that_depends_on_the_slip() {
 /// A hoop with a load on its rim, on ice.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, turn),
     define(load = [x + radius*sin(turn), y + radius*cos(turn)]),
     kinetic = mass/2*(der(x)^2 + der(y)^2 + radius^2*der(turn)^2) + (der(load[0])^2 + der(load[1])^2)/2,

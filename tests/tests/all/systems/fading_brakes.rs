@@ -7,6 +7,7 @@ use lagrange_tests::{METHODS, TOLERANCES, agree, certified, methods_at, run_by, 
 /// A block that a brake holds, and a guide whose force passes through zero; and another one, at a stop.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, u, w),
     kinetic = (der(x)^2 + der(y)^2 + der(u)^2 + der(w)^2)/2,
     force(pull: x = strength),
@@ -67,6 +68,7 @@ fn a_guide_whose_force_passes_through_zero_leaves_its_load_to_the_brake() {
 /// Two brakes on one slip, of which one fades or swings.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, u),
     kinetic = (der(x)^2 + der(u)^2)/2,
     force(pull: x = strength),
@@ -107,6 +109,7 @@ fn a_brake_that_fades_leaves_its_load_to_the_other() {
 /// A puck on ice that a force pushes to and fro, or that is sent up a slope.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, z, u, w),
     kinetic = (der(x)^2 + der(y)^2 + der(z)^2 + der(u)^2 + der(w)^2)/2,
     potential = 9.81*z,
@@ -150,6 +153,7 @@ fn without_friction_slips_pass_through_zero() {
 /// A load on a moving belt, held by two brakes that take turns, and always can hold it together.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x),
     kinetic = der(x)^2/2,
     define(belt = swing*sin(rate*t), share = (1 - cos(shift*t))/2),

@@ -8,6 +8,7 @@ use lagrange_tests::{Random, agree, run_by};
 /// The middle of the lower side is at (x, y − lower).
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, phi),
     define(
         left = [x - half * cos(phi) + lower * sin(phi), y - half * sin(phi) - lower * cos(phi)],
@@ -82,6 +83,7 @@ fn bounces(scene: &Crate, start: &State<f64>, fall: f64, method: Method) {
 /// A cupboard that stands with one side at a wall, tilted about its other lower corner, which is rough.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, p),
     define(
         c = cos(p),

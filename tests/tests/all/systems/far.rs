@@ -7,6 +7,7 @@ use lagrange_tests::{METHODS, agree, certified, methods_at, run_by, words};
 /// Two bodies on a spring, with a bumper that rubs.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x[2], y[2]),
     kinetic = sum(k in 0..2: mass[k]/2 * (der(x[k])^2 + der(y[k])^2)),
     potential = stiffness/2 * ((x[1] - x[0])^2 + (y[1] - y[0])^2),

@@ -9,6 +9,7 @@ const G: f64 = 9.81;
 /// A rod that leans and slides on its lower tip (Painlevé 1895), of half length 1 and mass 1.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, phi),
     define(tip = [x - cos(phi), y - sin(phi)]),
     kinetic = (der(x)^2 + der(y)^2) / 2 + der(phi)^2 / 6,
@@ -102,6 +103,7 @@ fn a_rod_with_one_motion_and_one_with_none() {
 /// A beam on three supports, the middle one under its centre of mass.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, phi),
     kinetic = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(phi)^2,
     potential = mass * gravity * y,
@@ -201,6 +203,7 @@ fn what_is_no_state_is_refused() {
 /// Two blocks, one on the other, of which the upper one is pulled more and more; the frictions in both orders.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, u, y, w),
     kinetic = (der(x)^2 + der(u)^2 + der(y)^2 + der(w)^2)/2,
     force(pull: u = rate * t),
@@ -234,6 +237,7 @@ fn what_has_been_overcome_lets_go() {
 /// A plank at rest on three feet, its weight aside of them all, in axes that are turned.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, phi),
     define(height = x * sin(turn) + y * cos(turn)),
     kinetic = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(phi)^2,

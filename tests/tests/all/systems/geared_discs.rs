@@ -7,6 +7,7 @@ use lagrange_tests::{METHODS, Random, all_agree, certified, methods_at, run_by};
 /// A disc that is geared to a rack falls onto a moving belt.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, u),
     kinetic = (der(x)^2 + der(y)^2) / 2 + inertia/2 * der(u)^2,
     potential = 10 * y,
@@ -58,6 +59,7 @@ fn a_geared_disc_is_not_moved_by_its_belt() {
 /// A bar falls flat on both its ends; a rod along the floor holds its middle.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, u),
     kinetic = (der(x)^2 + der(y)^2) / 2 + inertia/2 * der(u)^2,
     potential = 10 * y,

@@ -8,6 +8,7 @@ use lagrange_tests::{METHODS, all_agree, certified, methods_at, run_by};
 /// Two rods that hang; the lower one cannot swing behind the upper one.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(a, b),
     kinetic = (upper * der(a))^2 / 2 + mass/2 * (der(upper * sin(a) + lower * sin(b))^2 + der(upper * cos(a) + lower * cos(b))^2),
     potential = -10 * upper * cos(a) - mass * 10 * (upper * cos(a) + lower * cos(b)),
@@ -93,6 +94,7 @@ fn a_floor_as_low_as_a_leg_reaches_is_grazed() {
 /// A bob on a rod in the plane: the rod alone determines how high it is where it hangs.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     potential = 10 * y,
@@ -159,6 +161,7 @@ fn a_bob_swings_past_what_it_only_touches() {
 /// A bead on a wire whose lowest point is on a floor, at `low`; a wheel turns the plane of the wire.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, z),
     kinetic = (der(x)^2 + der(y)^2 + der(z)^2) / 2,
     potential = 10 * z,
@@ -229,6 +232,7 @@ fn rounding_of_a_gap_without_a_slope_is_no_penetration() {
 /// Two rods, the lower one told by its angle to the upper one, whose end hangs down to a floor.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(hip, knee),
     kinetic = mass/2 * (der(sin(hip) + length * sin(hip + knee))^2 + der(cos(hip) + length * cos(hip + knee))^2) + der(hip)^2/2,
     potential = -10 * cos(hip) - 10 * mass * (cos(hip) + length * cos(hip + knee)),

@@ -9,6 +9,7 @@ use lagrange_tests::{
 /// A ball between two walls, inclined by `left` and `right` to the horizontal.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic   = mass/2 * (der(x)^2 + der(y)^2),
     potential = mass * gravity * y,
@@ -128,6 +129,7 @@ fn a_ball_falls_back_to_the_bottom() {
 /// A ball in a valley that moves, whose sides are surfaces that end at each other, at its bottom.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     define(beside = x - bottom - speed*t, above = y - swing*sin(rate*t)),
     kinetic = (der(x)^2 + der(y)^2)/2,

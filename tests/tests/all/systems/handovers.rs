@@ -7,6 +7,7 @@ use lagrange_tests::{METHODS, Random, TOLERANCES, agree, certified, methods_at, 
 /// A parcel on two belts of one speed. It would slide if it ever slipped: what holds is more than what rubs.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, z),
     define(speed = mean + swing*sin(rate*t + phase)),
     kinetic = (der(x)^2 + der(y)^2 + der(z)^2)/2,
@@ -62,6 +63,7 @@ fn a_parcel_rides_from_one_belt_to_the_next() {
 /// A part of a cylinder, whose arc ends at an edge, rolls onto that edge and tips on.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, turn),
     define(centre = [x + off*sin(turn), y + off*cos(turn)], tip = turn - end),
     kinetic = (der(x)^2 + der(y)^2)/2 + inertia/2*der(turn)^2,
@@ -119,6 +121,7 @@ fn a_rocker_rolls_onto_its_edge() {
 /// A pendulum whose string lays itself round a peg: both strings are taut there.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     define(
         bob = [x - origin, y],
@@ -185,6 +188,7 @@ fn a_string_lays_itself_round_a_peg() {
 /// A mass on a lift that sinks away from an instant on, at which another one has come up.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(y),
     kinetic = mass/2*der(y)^2,
     potential = mass*9.81*y,
@@ -217,6 +221,7 @@ fn a_lift_hands_its_load_over() {
 /// A block that sticks to a moving lift, and then to another one of the same speed; slips have two components.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, z),
     kinetic = (der(x)^2 + der(y)^2 + der(z)^2)/2,
     potential = 9.81*y,

@@ -7,6 +7,7 @@ use lagrange_tests::{agree, run, words};
 /// A wheel that rolls on the floor against a smooth ramp.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, phi),
     kinetic = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(phi)^2,
     potential = mass * gravity * y,
@@ -49,6 +50,7 @@ fn a_contact_that_parts_in_an_impact_does_not_hold_what_it_carries() {
 /// A bead that slides in a bowl, up to a lid that presses it into the bowl.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     potential = gravity * y,

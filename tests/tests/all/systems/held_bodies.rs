@@ -9,6 +9,7 @@ use lagrange_tests::{
 /// A bead in a rough bowl, with a force that swings and is too small to move it.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2)/2,
     potential = 9.81*y,
@@ -56,6 +57,7 @@ fn nothing_turns_while_friction_holds() {
 /// A block that a spring pulls over rough ground, which is curved, and a pendulum beside it: what swings turns while the other is held.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, swing),
     kinetic = (der(x)^2 + der(y)^2 + der(swing)^2)/2,
     potential = 9.81*y + 20*(1 - cos(swing)),
@@ -81,6 +83,7 @@ fn what_moves_beside_it_still_turns() {
 /// A mass that is thrown down beside a wall, pulled to it by a spring, and lands on a floor that keeps it.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = mass/2 * (der(x)^2 + der(y)^2),
     potential = mass*gravity*y + spring/2*x^2,
@@ -126,6 +129,7 @@ fn what_an_impact_ends_has_ended() {
 /// A body that friction holds on curved ground under a force that swings, and a crank that is turned to and fro beside it.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, crank),
     kinetic = (der(x)^2 + der(y)^2 + der(crank)^2)/2,
     potential = 9.81*y,

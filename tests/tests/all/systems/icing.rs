@@ -7,6 +7,7 @@ use lagrange_tests::{agree, certified, event, methods_at, root, run_by};
 /// A box on three feet in a row, pulled ever harder while the floor below the first one ices over.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, turn),
     define(
         left = [x - 0.5*cos(turn) + 0.4*sin(turn), y - 0.5*sin(turn) - 0.4*cos(turn)],
@@ -83,6 +84,7 @@ fn a_box_slips_when_its_feet_can_no_longer_share_the_pull() {
 /// A box in a corner that two brakes hold, under a force that grows and swings: contacts and frictions allow more modes than are tried one by one.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, turn),
     define(
         left = [x - 0.6655*cos(turn) + 0.6655*sin(turn), y - 0.6655*sin(turn) - 0.6655*cos(turn)],

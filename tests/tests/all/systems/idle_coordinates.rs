@@ -7,6 +7,7 @@ use lagrange_tests::{METHODS, TOLERANCES, agree, all_agree, certified, methods_a
 /// A slider-crank whose guide rubs.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(a, b, x, y),
     constraint(joint_x: x == crank * cos(a) + rod * cos(b)),
     constraint(joint_y: y == crank * sin(a) - rod * sin(b)),
@@ -26,6 +27,7 @@ struct Crank {
 /// The same with the piston at `u`, which is where `x` is.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(a, b, x, y, u),
     constraint(red: u == x),
     constraint(joint_x: x == crank * cos(a) + rod * cos(b)),

@@ -9,6 +9,7 @@ use lagrange_tests::{
 /// A block on two feet, one of them on ice.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, turn),
     kinetic = mass/2*(der(x)^2 + der(y)^2) + mass/20*der(turn)^2,
     potential = 9.81*mass*y,
@@ -64,6 +65,7 @@ fn a_foot_on_ice_lets_the_other_one_hold() {
 /// A mass that a brake of constant strength holds, and one that fades away, against a force that comes and goes.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x),
     kinetic = der(x)^2/2,
     force(push: x = strength*sin(t)^8),
@@ -104,6 +106,7 @@ fn an_overload_is_felt_beside_a_brake_that_has_faded_away() {
 /// The same mass, which the second brake could always hold by itself, but hardly.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = der(x)^2/2 + der(y)^2/2,
     force(push: x = strength*cos(5*(t - 1) + phase)),
@@ -139,6 +142,7 @@ fn a_limit_that_reaches_zero_is_no_slip() {
 /// A disc on three pads, the last of which does nothing.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, turn),
     kinetic = der(x)^2/2 + der(turn)^2/8,
     force(push: x = strength*sin(4*t)),

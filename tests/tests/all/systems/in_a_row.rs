@@ -8,6 +8,7 @@ use lagrange_tests::{Random, TOLERANCES, agree, event, methods_at, root, run_by,
 /// Three flywheels on overrunning clutches, one behind the other, behind a shaft that swings; each is slowed down by a weight on a drum.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(wheel[3]),
     kinetic = sum(k in 0..3: (1 + k)/2 * der(wheel[k])^2),
     potential = load * sum(k in 0..3: (1 + k) * wheel[k]),
@@ -78,6 +79,7 @@ fn they_leave_together_and_come_back_together() {
 /// The same without weights, from rest: they leave the shaft where it is fastest, and everything that drives vanishes there.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(wheel[3]),
     kinetic = sum(k in 0..3: (1 + k)/2 * der(wheel[k])^2),
     contact(shaft: wheel[0] >= swing * (1 - cos(rate * t))),

@@ -7,6 +7,7 @@ use lagrange_tests::{agree, closure, event, run};
 /// Balls on a line.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x[5]),
     kinetic = sum(i in 0..5: mass/2 * der(x[i])^2),
     contact(pair[k in 0..4]: x[k+1] - x[k] >= 0, restitution = e),
@@ -49,6 +50,7 @@ fn in_turn_as_many_balls_leave_a_cradle_as_come() {
 /// Two balls of mass 1 : 3 fall together; with e = 1 the heavy one bounces first and stays down.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(low, high),
     kinetic = heavy/2 * der(low)^2 + light/2 * der(high)^2,
     potential = gravity * (heavy * low + light * high),

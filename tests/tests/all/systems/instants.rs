@@ -73,6 +73,7 @@ fn a_ceiling_that_is_only_touched_is_not_hit() {
 /// A block that slides against a wall which keeps it, and a load that lands with it.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, z),
     kinetic = (der(x)^2 + der(z)^2) / 2,
     contact(wall: 1 >= x),

@@ -8,6 +8,7 @@ use lagrange_tests::{all_agree, certified, methods_at, run_by};
 /// A box that leans against a wall and slides on the floor, pushed: it falls back flat into the corner.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, lean),
     define(
         left = [x - half * cos(lean) + lower * sin(lean), y - half * sin(lean) - lower * cos(lean)],

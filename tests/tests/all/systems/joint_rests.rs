@@ -9,6 +9,7 @@ use lagrange_tests::{
 /// A bob on a rod rubs along two walls and is pushed ever more.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     constraint(rod: sqrt(x^2 + y^2) == 1),
@@ -67,6 +68,7 @@ fn frictions_that_come_to_rest_together_hold_together() {
 /// numbers sin 1 and cos 1 hide it.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(a, x, w),
     define(y = a + w),
     kinetic = der(w)^2/2 + (der(x)^2 + der(y)^2)/2,
@@ -93,6 +95,7 @@ fn a_row_that_follows_from_others_in_sines_is_no_divisor() {
 /// A crank moves two slides by cams that are in their dead centres at one instant, and both slides rub.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(q, x, y),
     kinetic = (der(q)^2 + der(x)^2 + der(y)^2) / 2,
     constraint(first: x == cos(a*q)),
@@ -149,6 +152,7 @@ fn frictions_that_are_in_their_dead_centres_together_do_not_hold() {
 /// A slide that two frictions hold, one of them by a lever that turns as something else moves on.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     friction(lever: slip = der(x) * sqrt(1 + y^2), limit = a),

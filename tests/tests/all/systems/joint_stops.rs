@@ -7,6 +7,7 @@ use lagrange_tests::{METHODS, TOLERANCES, agree, event, methods_at, run_by};
 /// Two links in a level plane, driven at both joints.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(a, b),
     define(
         first = [cos(a)/5, sin(a)/5],
@@ -57,6 +58,7 @@ fn a_joint_at_its_stop_does_not_slip() {
 /// A slide on a strut that is pushed against its stop ever more.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(s, angle),
     kinetic = der(s)^2/2 + der(angle)^2/2,
     constraint(strut: cos(angle)^2 + (s - sin(angle))^2 == 1),

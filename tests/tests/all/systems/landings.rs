@@ -116,6 +116,7 @@ struct RodInSpace {
 /// In the plane: (x, z, θ from the vertical).
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, z, theta),
     kinetic = mass/2 * (der(x)^2 + der(z)^2) + inertia/2 * der(theta)^2,
     contact(floor: z - half * cos(theta) >= 0, restitution = e),
@@ -176,6 +177,7 @@ fn a_rod_in_quaternions_strikes_as_one_with_an_angle() {
 /// A body on its floor, and a mass whose place is told from it.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, r, angle),
     define(px = x + r * sin(angle), py = y + r * cos(angle)),
     kinetic = mass/2 * (der(px)^2 + der(py)^2) + body/2 * (der(x)^2 + der(y)^2),
@@ -216,6 +218,7 @@ fn a_mass_that_lands_does_not_lift_what_it_is_measured_from() {
 /// A mass slides down a smooth ramp onto a rough floor.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2)/2,
     potential = gravity*y,
@@ -267,6 +270,7 @@ fn a_mass_that_falls_back_into_a_corner_meets_both_its_sides() {
 /// A box on two feet with three brakes of given strength, which falls onto one foot and then the other.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, turn),
     define(
         left_x = x - wide*cos(turn) + tall*sin(turn),

@@ -9,6 +9,7 @@ use lagrange_tests::{
 /// A block dropped onto a rough incline, which lifts or not while the block bounces.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(s, n),
     kinetic = mass/2 * (der(s)^2 + der(n)^2),
     potential = mass * gravity * (n * cos(slope) - s * sin(slope)),
@@ -96,6 +97,7 @@ fn between_the_last_impact_and_the_rest_the_motion_goes_on() {
 /// A bar that falls flat, end after end, and slides on: the rest of its impacts must not turn its friction round.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, theta),
     kinetic = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(theta)^2,
     potential = mass * 9.81 * y,
@@ -136,6 +138,7 @@ fn a_bar_that_has_fallen_flat_is_slowed_down() {
 /// A rod falls to the floor and bounces, with a sleeve clamped to it, which every impact pushes down by a little.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(rod, sleeve),
     kinetic = rod_mass/2 * der(rod)^2 + sleeve_mass/2 * der(sleeve)^2,
     potential = gravity * (rod_mass * rod + sleeve_mass * sleeve),
@@ -182,6 +185,7 @@ fn what_sticks_between_bounces_sticks_where_they_end() {
 /// Two balls that bounce beside each other, and a load that slides under the second one.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(first, second, x),
     kinetic = (der(first)^2 + der(second)^2 + der(x)^2) / 2,
     potential = gravity * (first + second),
@@ -384,6 +388,7 @@ fn the_last_bounces_of_a_gap_of_large_numbers() {
 /// A body that lies on a shaken table, one that slides on the ground, and a ball.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, z, a, c, d, b),
     define(place = shaken * sin(10 * t)),
     kinetic = (der(x)^2 + der(y)^2 + der(z)^2 + der(a)^2 + der(c)^2 + der(d)^2 + der(b)^2) / 2,
@@ -418,6 +423,7 @@ fn the_last_bounces_move_nothing_that_lies_elsewhere() {
 /// A hammer that a growing and falling force pushes against an anvil that dry friction holds.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, u),
     kinetic = anvil/2 * der(x)^2 + hammer/2 * der(u)^2,
     force(push: u = strength * (1 + sin(pulse * t) / 2)),
@@ -527,6 +533,7 @@ fn blows_too_small_to_be_seen_in_positions_come_to_an_end() {
 /// A peg on a spring in a slot with play and rough sides; the slot rubs on its guide.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = peg/2 * der(x)^2 + slot/2 * der(y)^2,
     potential = stiffness/2 * (x - 1/5)^2 + load * y,
@@ -592,6 +599,7 @@ fn bounces_between_which_a_friction_turns_come_to_an_end() {
 /// A ball that bounces to rest beside a block that only a brake slows down.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     potential = 10 * y,
@@ -630,6 +638,7 @@ fn what_a_brake_stops_among_the_last_bounces_is_not_pushed_back() {
 /// A ball that bounces to rest on the floor, is kicked up, and bounces to rest again; beside that it runs into a smooth wall.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     potential = 10 * y,

@@ -11,6 +11,7 @@ const G: f64 = 9.81;
 /// A block that slides along a table and is pushed back by a wind.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2)/2,
     potential = gravity*y,
@@ -99,6 +100,7 @@ fn a_block_that_turns_at_the_edge_goes_back_or_falls() {
 /// A box that slides over the end of a table and tips: its lower corners touch the table, and the edge of the table its lower face.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, turn),
     define(
         rear_x = x - wide*cos(turn) + tall*sin(turn),
@@ -170,6 +172,7 @@ fn the_last_corner_of_a_box_passes_the_end_of_a_table() {
 /// A block at rest at the edge of a table, under a load that grows from zero.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = mass/2 * (der(x)^2 + der(y)^2),
     potential = mass*gravity*y,
@@ -286,6 +289,7 @@ fn what_rests_at_the_end_of_a_ramp_falls_beside_it_or_is_driven_up() {
 /// A block that a brake brings to rest exactly at the edge, and that is pulled on later.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2)/2,
     potential = gravity*y,

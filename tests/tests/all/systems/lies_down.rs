@@ -6,6 +6,7 @@ use lagrange_tests::{METHODS, certified, methods_at};
 
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(theta[3]),
     define(
         x[k in 0..3] = sum(i in 0..k+1: length[i] * sin(theta[i])),

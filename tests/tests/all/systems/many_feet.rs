@@ -6,6 +6,7 @@ use lagrange_tests::{METHODS, agree, certified, methods_at, run_by, times};
 /// A round table on six feet that hardly tilts, pushed through its centre at some height over the floor.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, turn, z, a, b),
     define(
         east[k in 0..6] = cos(pi/3*k)*cos(turn) - sin(pi/3*k)*sin(turn),

@@ -16,6 +16,7 @@ const METHODS: [&str; 6] = [
 /// A weight carried by two mirrored cranks with dry bearings; a hand moves it up and down.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, a[2]),
     kinetic = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * (der(a[0])^2 + der(a[1])^2),
     potential(weight: mass * 9.81 * y),
@@ -40,6 +41,7 @@ struct Press {
 /// Half of it: the weight does not leave the middle.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(y, a),
     kinetic = mass/2 * der(y)^2 + inertia * der(a)^2,
     potential = mass * 9.81 * y + stiffness * (a - 0.3)^2,
@@ -108,6 +110,7 @@ fn two_mirrored_cranks_move_as_one() {
 /// A delta robot lets its platform hang on three arms; what the rods press makes the shoulders rub.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(a[3], p[3]),
     define(
         reach[k in 0..3] = base + arm * cos(a[k]),
@@ -132,6 +135,7 @@ struct Delta {
 /// One arm with the inertia of three.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(a, z),
     kinetic = mass/2 * der(z)^2 + 3 * inertia/2 * der(a)^2,
     potential = mass * 9.81 * z + 3 * stiffness/2 * a^2,

@@ -7,6 +7,7 @@ use lagrange_tests::{Random, agree, certified, run_by};
 /// Pulled ever harder; the oil is a damper beside the ground, or the ground is as rough as the slip is fast.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     force(rope: x = pull * t),

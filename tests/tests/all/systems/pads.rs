@@ -7,6 +7,7 @@ use lagrange_tests::{Random, agree, root, run_by, runge_kutta, words};
 /// A bar on two pads at its ends, pulled ever harder at a place `off` its middle.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, phi),
     define(
         e = [cos(phi), sin(phi)],

@@ -328,6 +328,7 @@ fn what_has_one_of_two_values_becomes_true_where_it_jumps() {
 /// A seat belt in a car that moves: a mass at its stop, in front of a spring that pushes one way, and across a brake that holds.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(u, w),
     define(x = u + sway * sin(0.6*t + 0.5), y = w + sway * sin(0.6*t)),
     kinetic = mass/2 * der(x)^2 + der(y)^2/2,

@@ -34,6 +34,7 @@ struct InSpace {
 /// The same plate in the coordinates of its plane.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, theta),
     define(
         side = [-wide, wide],
@@ -123,6 +124,7 @@ struct BoxInSpace {
 /// The same box in the coordinates of its plane.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, z, theta),
     define(
         side = [-long, long],

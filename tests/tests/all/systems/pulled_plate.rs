@@ -7,6 +7,7 @@ use lagrange_tests::{METHODS, agree, methods_at, run_by};
 /// Pulled across the line of its pads, `off` its middle.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, turn),
     define(
         left = [der(x) - half * sin(turn) * der(turn), der(y) + half * cos(turn) * der(turn)],
@@ -60,6 +61,7 @@ fn a_plate_slides_off_both_of_its_pads() {
 /// A sledge whose pads are pressed by its weight, pulled in its middle by a force that turns: across the line of its pads when they let go.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, z, turn, tip),
     define(
         left = [der(x) - half * sin(turn) * der(turn), der(y) + half * cos(turn) * der(turn)],

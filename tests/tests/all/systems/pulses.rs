@@ -312,6 +312,7 @@ fn no_method_misses_a_load_that_beats() {
 /// A bead that slides down a wire which is pressed by next to nothing.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2)/2,
     force(press: y = load * sin(rate*t)^8),

@@ -7,6 +7,7 @@ use lagrange_tests::{METHODS, agree, event, run_by, words};
 /// Racket and ball on a line; both kinetic energies have names.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(racket, ball),
     kinetic(of_racket: heavy/2 * der(racket)^2),
     kinetic(of_ball: mass/2 * der(ball)^2),

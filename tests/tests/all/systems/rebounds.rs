@@ -58,6 +58,7 @@ fn drag_is_against_the_motion_after_a_rebound_too() {
 /// A block on a belt runs against a wall; what grips it grows weaker with the speed of the slip.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x),
     kinetic = mass/2 * der(x)^2,
     contact(wall: edge - x >= 0, restitution = bounce),
@@ -103,6 +104,7 @@ fn the_speed_of_a_slip_is_its_size_on_either_side() {
 /// A ball is thrown onto ground with a patch, which takes its spin otherwise and lets it bounce otherwise; and onto ground that softens.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2)/2,
     potential = gravity * y,
@@ -154,6 +156,7 @@ fn an_impact_has_the_coefficients_of_where_it_is() {
 /// Two masses on one rope, which friction presses; a motor pulls to and fro.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(a, b),
     kinetic = first/2*der(a)^2 + second/2*der(b)^2,
     constraint(rope: a == b),

@@ -10,6 +10,7 @@ const G: f64 = 9.81;
 /// A block on a table of finite length, which stands on a floor.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = mass/2 * (der(x)^2 + der(y)^2),
     potential = mass * gravity * y,
@@ -197,6 +198,7 @@ fn a_certificate_knows_what_passes_outside_a_region() {
 /// A door that pushes a bolt aside with a bevel, which ends where the door is nearly shut.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(door, bolt),
     kinetic   = inertia/2 * der(door)^2 + mass/2 * der(bolt)^2,
     potential = stiffness/2 * bolt^2 + preload * bolt,
@@ -243,6 +245,7 @@ fn a_certificate_of_a_few_steps_knows_what_has_passed_outside_a_region() {
 /// A wheel that rolls against a kerb, turns about its edge, and rolls on upon the pavement.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, phi),
     define(far = sqrt((x - place)^2 + (y - height)^2)),
     kinetic   = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(phi)^2,
@@ -303,6 +306,7 @@ fn a_wheel_climbs_a_kerb_and_stays_on_top() {
 /// A hoop of radius `radius` that rolls against a kerb of height `kerb`.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, theta),
     define(away = sqrt(x^2 + (y - kerb)^2)),
     kinetic = mass/2 * (der(x)^2 + der(y)^2) + mass/2 * radius^2 * der(theta)^2,
@@ -352,6 +356,7 @@ fn a_mark_where_regions_meet_is_written_once() {
 /// A sledge on a level track that ends where a round hill begins to fall off.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     potential = gravity * y,
@@ -389,6 +394,7 @@ fn a_surface_that_touches_the_edge_of_another_takes_over() {
 /// A seesaw that ends on two blocks, and a ball that falls on it. The plank is one-sided and as long as it is.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(tilt, x, y, turn),
     kinetic = plank/2 * der(tilt)^2 + mass/2 * (der(x)^2 + der(y)^2) + mass * radius^2/4 * der(turn)^2,
     potential = mass * gravity * y,
@@ -440,6 +446,7 @@ fn a_ball_on_a_seesaw_does_not_fall_through() {
 /// A slat that is pushed over the edge of a table, on which its tail lies.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, tilt),
     define(face = [cos(tilt), -sin(tilt)], up = [sin(tilt), cos(tilt)]),
     define(tail = [x, y] - half * face, place = x * face[0] + y * face[1]),
@@ -518,6 +525,7 @@ fn what_passes_below_an_edge_is_certified() {
 /// A smooth ramp that ends at the edge of a table.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     potential = gravity * y,
@@ -561,6 +569,7 @@ fn what_reaches_a_surface_at_its_edge_passes_by_it() {
 /// A ball in a room: its floor ends at the wall. Both rub.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, phi),
     kinetic = (der(x)^2 + der(y)^2) / 2 + radius^2/5 * der(phi)^2,
     potential = gravity * y,
@@ -585,6 +594,7 @@ struct Room {
 /// The same with a floor that goes on behind the wall.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, phi),
     kinetic = (der(x)^2 + der(y)^2) / 2 + radius^2/5 * der(phi)^2,
     potential = gravity * y,
@@ -666,6 +676,7 @@ fn a_floor_that_ends_at_a_wall_is_as_good_as_an_endless_one() {
 /// The verge of a table: a floor that ends where a round edge of the same height begins.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     potential = gravity * y,
@@ -716,6 +727,7 @@ fn a_start_between_two_surfaces_follows_one_of_them() {
 /// A mass that is pushed against a wall, which leans and moves away, and slides down it onto a floor that ends there.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     potential = gravity * y - push * x,
@@ -763,6 +775,7 @@ fn a_floor_is_there_along_the_wall_that_it_ends_at() {
 /// A floor in two parts, and a wall at the end of the second one; along it by u + v, turning by u − v.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(u, y, v),
     kinetic = der((u + v)/2)^2/2 + der(y)^2/2 + inertia/2*der((u - v)/2)^2,
     potential = 9.81*y,

@@ -105,6 +105,7 @@ fn a_block_follows_its_belt_by_friction_when_that_is_reversed() {
 /// A block on two belts that meet and run against one another.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = mass/2 * (der(x)^2 + der(y)^2),
     potential = mass*gravity*y,
@@ -154,6 +155,7 @@ fn a_block_swings_between_two_belts() {
 /// Luggage at the end stop of a belt that is switched off, with and without a second component of the slip.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, z, line, height),
     kinetic = (der(x)^2 + der(y)^2 + der(z)^2 + der(line)^2 + der(height)^2)/2,
     potential = gravity*(z + height),
@@ -204,6 +206,7 @@ fn luggage_rests_when_its_belt_is_switched_off() {
 /// A brake whose limit changes while it holds, at times exactly to what it has to hold.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, z),
     kinetic = (der(x)^2 + der(y)^2 + der(z)^2)/2,
     force(pull: x = strength),

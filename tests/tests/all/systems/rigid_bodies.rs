@@ -6,6 +6,7 @@ use lagrange_tests::agree;
 /// A ball rolls along a wall that it only touches: nothing presses it there, and forces are what rounding leaves.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     attitude(body: q),
     kinetic = mass/2 * (der(x)^2 + der(y)^2) + mass * radius^2 / 5 * (body.body_rate[0]^2 + body.body_rate[1]^2 + body.body_rate[2]^2),

@@ -7,6 +7,7 @@ use lagrange_tests::{agree, closure, integral, root, run};
 /// Half width b, half height h, turned by θ counter-clockwise about its center.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, theta),
     kinetic   = mass/2 * (der(x)^2 + der(y)^2) + mass * (b^2 + h^2)/6 * der(theta)^2,
     potential = mass * gravity * y,
@@ -98,5 +99,77 @@ fn the_corners_alternate_until_the_block_rests() {
         assert!(end.q[2].abs() < 1e-12);
         agree("height", end.q[1], h, 1e-12);
         assert!(closure(&trajectory) < 1e-10);
+    }
+}
+
+/// The block on its right corner, with a friction that holds more than it drags.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    emit = data,
+    coordinates(x, y, theta),
+    kinetic   = (der(x)^2 + der(y)^2) / 2 + (b^2 + h^2)/6 * der(theta)^2,
+    potential = 9.81 * y,
+    define(
+        left_x = x - b * cos(theta) + h * sin(theta),
+        left_y = y - b * sin(theta) - h * cos(theta),
+        right_x = x + b * cos(theta) + h * sin(theta),
+        right_y = y + b * sin(theta) - h * cos(theta),
+    ),
+    contact(left: left_y >= 0),
+    contact(right: right_y >= 0),
+    friction(left_grip on left: slip = der(left_x), static = holds, kinetic = drags),
+    friction(right_grip on right: slip = der(right_x), static = holds, kinetic = drags),
+    start(leans: theta = -lean, x = h * sin(lean) - b * cos(lean), y = h * cos(lean) + b * sin(lean)),
+)]
+struct Leaning {
+    b: f64,
+    h: f64,
+    holds: f64,
+    drags: f64,
+    lean: f64,
+}
+
+/// A block that falls back on its other corner may rock on about it, held by friction, or lie down on both and slide: its speeds after each follow
+/// from momentum alone. The one with the smaller jump is taken, and the other one told.
+#[test]
+fn a_block_may_rock_on_or_lie_down() {
+    for (b, h, holds, drags, lean) in [
+        (0.5, 0.5, 0.7, 0.3, 0.1),
+        (0.5, 0.6, 0.65, 0.1, 0.05),
+        (0.6, 0.5, 0.8, 0.3, 0.08),
+        (0.6, 0.5, 0.8, 0.1, 0.12),
+    ] {
+        let block = Leaning {
+            b,
+            h,
+            holds,
+            drags,
+            lean,
+        };
+        let record = run(&block, block.at(Leaning::LEANS), 0.5);
+        let event = record
+            .events()
+            .iter()
+            .find(|event| event.kind == EventKind::Impact);
+        let event = event.expect("it falls back");
+        let rate = event.state.v[2];
+        let share = 1.0 - 1.5 * b * b / (b * b + h * h);
+        let before = [-h * rate, -b * rate, rate];
+        let rocks = [-h * share * rate, b * share * rate, share * rate];
+        let lies = [drags * b * rate - h * rate, 0.0, 0.0];
+        let jump = |after: &[f64; 3]| {
+            let change = [0, 1, 2].map(|k| after[k] - before[k]);
+            change[0].powi(2) + change[1].powi(2) + (b * b + h * h) / 3.0 * change[2].powi(2)
+        };
+        let (taken, other) = match jump(&rocks) < jump(&lies) {
+            true => (rocks, lies),
+            false => (lies, rocks),
+        };
+        assert!(event.ambiguous, "{block:?}");
+        assert_eq!(event.other_impacts.len(), 1, "{block:?}");
+        for k in 0..3 {
+            agree("taken", event.state_after.v[k], taken[k], 1e-9);
+            agree("other", event.other_impacts[0].v_after[k], other[k], 1e-9);
+        }
     }
 }

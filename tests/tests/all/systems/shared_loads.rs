@@ -10,6 +10,7 @@ use lagrange_tests::{
 /// A sledge on two rough runners under a load that comes and goes.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, theta),
     kinetic = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(theta)^2,
     potential = mass * gravity * y,
@@ -64,6 +65,7 @@ fn a_load_that_is_too_large_for_a_moment_makes_it_slip() {
 /// A bar that slides on three supports, of which two are enough.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, theta),
     kinetic = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(theta)^2,
     potential = mass * gravity * y,
@@ -106,6 +108,7 @@ fn a_motion_that_depends_on_undetermined_forces_is_ambiguous() {
 /// A mat of three hinged rods, dropped flat onto a rough floor.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, a[3]),
     define(
         px[k in 0..4] = x + sum(i in 0..k: length * cos(a[i])),
@@ -175,6 +178,7 @@ fn a_mat_lies_flat() {
 /// A tooth between the two flanks of a gap without play, whose wheel swings; nothing else acts on it.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(tooth),
     kinetic = inertia/2 * der(tooth)^2,
     contact(drive: tooth >= swing * sin(rate * t)),
@@ -211,6 +215,7 @@ fn of_two_flanks_one_pushes() {
 /// A disc that turns between two pads without play, pressed now onto one, now onto the other.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(z, theta),
     kinetic = mass/2 * der(z)^2 + inertia/2 * der(theta)^2,
     force(press: z = -load * cos(rate * t)),
@@ -258,6 +263,7 @@ fn a_load_that_reverses_brakes_on_the_other_side() {
 /// A tray with four feet in a line, of which two are enough, falls askew onto a rough table.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, theta),
     kinetic = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(theta)^2,
     potential = mass * gravity * y,
@@ -306,6 +312,7 @@ fn what_lies_on_two_of_its_feet_lies_on_all() {
 /// A plank slides on three supports in a row, of which only the first is rough.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, theta),
     kinetic = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(theta)^2,
     potential = mass * gravity * y,
@@ -364,6 +371,7 @@ fn forces_that_are_open_are_possible_ones() {
 /// A beam on three supports, of which the load lifts it again and again.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(y, theta),
     kinetic = der(y)^2/2 + der(theta)^2/6,
     potential = gravity * y,
@@ -414,6 +422,7 @@ fn what_is_shared_ends_with_the_load_each_time() {
 /// A block that two frictions hold together, and a load that shakes it.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x),
     kinetic = der(x)^2/2,
     force(shake: x = load * sin(rate*t)),
@@ -449,6 +458,7 @@ fn two_frictions_hold_as_one_of_their_sum() {
 /// A beam on three supports, whose load wanders; a gauge is pushed by the first support.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(y, theta, u, x),
     kinetic = (der(y)^2 + der(u)^2 + der(x)^2)/2 + der(theta)^2/6,
     potential = gravity * y,
@@ -523,6 +533,7 @@ fn what_reads_a_shared_force_reads_the_one_reported() {
 /// A plate leans on a wall and turns freely; one friction is along its heading, where it is pushed, and one across.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, p),
     kinetic = (der(x)^2 + der(y)^2)/2 + der(p)^2/2,
     potential = -press * x,
@@ -569,6 +580,7 @@ fn frictions_whose_directions_turn_hold_together_as_long_as_they_can() {
 /// A bead on a circle comes down onto a stop, and rests there: it is held by the circle, the stop and by friction, two of them would do.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, h),
     kinetic = mass/2 * (der(x)^2 + der(h)^2),
     potential = mass * gravity * h,
@@ -616,6 +628,7 @@ fn what_rests_on_more_than_it_needs_does_not_lose_rank() {
 /// A beam on three supports, one of which is drawn inwards.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(y, p),
     kinetic = der(y)^2 + der(p)^2/2,
     potential = load * (y + arm * p),
@@ -658,6 +671,7 @@ fn a_beam_tips_over_a_support_that_moves() {
 /// A block that a pad and the end of a lever hold, which moves ever faster than the block.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x),
     kinetic = der(x)^2/2,
     friction(pad: slip = der(x), limit = own),
@@ -704,6 +718,7 @@ fn what_holds_by_a_ratio_that_changes_lets_go_where_both_are_overcome() {
 /// A plate on three feet, one of which comes nearer and nearer to the load.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(y, p),
     kinetic = der(y)^2 + 2/5 * der(p)^2,
     potential = 8 * (y + at_load * p),
@@ -738,6 +753,7 @@ fn a_plate_tips_where_a_foot_has_come_under_its_load() {
 /// A pendulum in x and y hangs from a slider that rests against a stop; its guide rubs.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, s),
     kinetic = bob/2*(der(x)^2 + der(y)^2) + slider/2*der(s)^2,
     potential = 9.81*bob*y,

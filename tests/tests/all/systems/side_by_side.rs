@@ -7,6 +7,7 @@ use lagrange_tests::{METHODS, Random, TOLERANCES, agree, certified, methods_at, 
 /// Two pucks on a rough table.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x[2], y[2]),
     kinetic = sum(i in 0..2: mass/2 * (der(x[i])^2 + der(y[i])^2)),
     contact(touch: norm((x[1] - x[0], y[1] - y[0])) >= width),
@@ -21,6 +22,7 @@ struct Two {
 /// Three of them.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x[3], y[3]),
     kinetic = sum(i in 0..3: mass/2 * (der(x[i])^2 + der(y[i])^2)),
     contact(first: norm((x[1] - x[0], y[1] - y[0])) >= width),

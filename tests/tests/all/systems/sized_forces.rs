@@ -10,6 +10,7 @@ macro_rules! sledge {
         $(#[$words])*
         #[derive(Lagrangian, Clone, Debug)]
         #[lagrange(
+                emit = data,
             coordinates(x, y),
             kinetic = mass/2 * (der(x)^2 + der(y)^2),
             potential = mass * 9.81 * y + spring/2 * x^2,

@@ -7,6 +7,7 @@ use lagrange_tests::{METHODS, Random, agree, certified, methods_at, run_by};
 
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(y[6]),
     kinetic = sum(i in 0..6: mass/2 * der(y[i])^2),
     potential = sum(i in 0..6: mass * gravity * y[i]) + sum(i in 0..5: stiffness/2 * (y[i] - y[i+1])^2),

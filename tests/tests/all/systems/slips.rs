@@ -92,6 +92,7 @@ fn a_bead_at_rest_stays_through_the_change_of_sides() {
 /// A block on a block on the floor, the lower one pushed by a growing force.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, z, u, v, w),
     kinetic = lower/2 * (der(x)^2 + der(y)^2 + der(z)^2) + upper/2 * (der(u)^2 + der(v)^2 + der(w)^2),
     potential = gravity * (lower * z + upper * w),
@@ -233,6 +234,7 @@ fn contact_is_lost_while_it_slips() {
 /// A block on a ramp that is tilted ever more, to either side; its friction falls with the speed.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(s, n),
     kinetic = (der(s)^2 + der(n)^2) / 2,
     force(weight: (side * gravity * sin(rate * t), -gravity * cos(rate * t)) at (s, n)),

@@ -7,6 +7,7 @@ use lagrange_tests::{METHODS, agree, certified, methods_at, run_by, words};
 /// In polar coordinates; the slot pushes at the distance `radius` from the axle.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(r, phi),
     kinetic = mass/2 * (der(r)^2 + (r * der(phi))^2),
     constraint(slot: radius * (phi - rate * t) == 0),

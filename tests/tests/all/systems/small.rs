@@ -6,6 +6,7 @@ use lagrange_tests::{METHODS, agree, certified, event, run_by};
 /// Two masses on a stiff rod run against a wall.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(front, rear),
     kinetic = light/2*der(front)^2 + heavy/2*der(rear)^2,
     constraint(rod: front + length == rear),
@@ -216,6 +217,7 @@ fn a_box_begins_to_slip_in_any_unit_of_mass_and_length() {
 /// A crank that pushes a slider with a rod of its own; the guide rubs.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(crank, rod, x, y),
     kinetic = inertia*der(crank)^2/2 + mass*length^2*der(rod)^2/120 + mass*(der(x)^2 + der(y)^2)/2,
     potential = mass*gravity*y,

@@ -7,6 +7,7 @@ use lagrange_tests::{Random, all_agree, certified, run_by};
 /// Five blocks, one upon the other; the lowest is pushed off. How they are pressed follows from contacts.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x[5], y[5]),
     kinetic = sum(i in 0..5: der(x[i])^2 + der(y[i])^2) / 2,
     potential = 10 * sum(i in 0..5: y[i]),
@@ -29,6 +30,7 @@ struct Stack {
 /// The same with the loads written down, so that there are few enough modes for all to be looked at.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x[5]),
     kinetic = sum(i in 0..5: der(x[i])^2) / 2,
     friction(f0: slip = der(x[0]), normal = 50, static = more * mu[0], kinetic = mu[0]),
@@ -69,6 +71,7 @@ fn what_is_not_overcome_holds() {
 /// Three blocks that fall onto a belt together, each with a speed of its own along it.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x[3], y[3]),
     kinetic = sum(i in 0..3: mass[i] * (der(x[i])^2 + der(y[i])^2)) / 2,
     contact(c0: y[0] >= 0),

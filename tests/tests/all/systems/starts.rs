@@ -6,6 +6,7 @@ use lagrange_tests::{METHODS, TOLERANCES, agree, event, methods_at, run_by};
 /// A crank drives a slider on a rough guide.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(phi, beta),
     define(x = crank*cos(phi) + rod*cos(beta)),
     kinetic = inertia/2*der(phi)^2 + mass/2*der(x)^2,
@@ -90,6 +91,7 @@ fn a_start_that_is_moved_keeps_its_speed() {
 /// A wheel on a road, and a flap on it that rubs.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, phi, flap),
     kinetic = mass/2*(der(x)^2 + der(y)^2) + inertia/2*(der(phi)^2 + der(flap)^2),
     potential = mass*gravity*y,
@@ -181,6 +183,7 @@ fn an_angle_takes_a_linkage_out_of_its_flat_position() {
 /// A ladder on a floor and against a wall.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, lean),
     kinetic = mass/2 * (der(x)^2 + der(y)^2) + mass*length^2/24 * der(lean)^2,
     potential = mass * gravity * y,

@@ -147,6 +147,7 @@ fn only_one_scene_of_the_catalogue_is_stiff() {
 /// A motor on a stiff coupler pushes a carriage that a stop and friction hold together: nothing tells how they share the load.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(motor, carriage),
     kinetic = der(motor)^2 / 2 + der(carriage)^2,
     potential(coupler: stiffness/2 * (motor - carriage)^2),

@@ -12,6 +12,7 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 /// A stool on four feet slides and turns; `tilt` are its small turns about its own axes.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, turn, z, tilt[2]),
     define(
         east = [cos(turn), sin(turn)],
@@ -171,6 +172,7 @@ fn feet_share_the_load_of_what_slides_on_them() {
 /// A plate on four feet in a square, without height: each carries a quarter of the weight, however it slides.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, turn, z, tilt[2]),
     define(
         a = [radius, 0, -radius, 0],

@@ -9,6 +9,7 @@ macro_rules! rod {
         /// Half length h, turned by θ from the vertical; the lower end strikes.
         #[derive(Lagrangian, Clone, Debug)]
         #[lagrange(
+                emit = data,
                             coordinates(x, y, theta),
                             kinetic = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(theta)^2,
                             contact(floor: y - half * cos(theta) >= 0, restitution = $restitution),

@@ -7,6 +7,7 @@ use lagrange_tests::{METHODS, Random, TOLERANCES, agree, certified, methods_at, 
 /// A bead slides down an arc onto a level strip and up another arc; the strip is where a product is positive, and the arcs where sums and products are.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2)/2,
     potential = gravity*y,
@@ -60,6 +61,7 @@ fn a_half_pipe_of_three_pieces_is_passed_to_and_fro() {
 /// A block on two belts that adjoin at the origin and run towards each other.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2)/2,
     potential = gravity*y,

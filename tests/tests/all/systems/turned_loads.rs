@@ -7,6 +7,7 @@ use lagrange_tests::{METHODS, Random, SINGLE_METHODS, agree, certified, root, ru
 /// A rack and its pinion at rest: a clutch holds the rack, and the mesh rubs.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(s, p),
     kinetic = der(s)^2/2 + der(p)^2/2,
     constraint(mesh: s + ratio * p == 0),
@@ -70,6 +71,7 @@ fn a_rack_is_held_as_the_force_of_its_mesh_turns() {
 /// A screw whose thread rubs, held by a tight nut as well.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(z, phi),
     kinetic = der(z)^2/2 + der(phi)^2/2,
     constraint(thread: z == 0.05 * phi),

@@ -8,6 +8,7 @@ use lagrange_tests::{METHODS, Random, agree, certified, methods_at, run_by};
 /// A grain that a wind blows into a corner of the room.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(a, b, z),
     define(depth = cosine * a - sine * z, height = sine * a + cosine * z),
     kinetic = (der(a)^2 + der(b)^2 + der(z)^2) / 2,

@@ -7,6 +7,7 @@ use lagrange_tests::{Random, agree};
 /// A ball in its plane; both walls are `reach` away from the origin.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, phi),
     kinetic = (der(x)^2 + der(y)^2) / 2 + radius^2/5 * der(phi)^2,
     contact(right: reach - x >= 0, restitution = bounce),
@@ -25,6 +26,7 @@ struct Corner {
 /// The same with the other wall declared first.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, phi),
     kinetic = (der(x)^2 + der(y)^2) / 2 + radius^2/5 * der(phi)^2,
     contact(top: reach - y >= 0, restitution = bounce),

@@ -7,6 +7,7 @@ use lagrange_tests::{METHODS, TOLERANCES, agree, certified, event, methods_at, r
 /// Two balls over a floor each.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2)/2,
     potential = gravity*(x + y),
@@ -76,6 +77,7 @@ fn a_first_impact_is_not_the_last_one_of_another_body() {
 /// A rod that strikes a rough floor with a restitution that would add energy (Kane & Levinson 1985), and a ball at a wall of its own.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, turn, z),
     define(end_x = x + cos(turn)/2, end_y = y + sin(turn)/2),
     kinetic = (der(x)^2 + der(y)^2)/2 + inertia/2*der(turn)^2 + der(z)^2/2,
@@ -125,6 +127,7 @@ fn impacts_at_one_instant_have_each_their_own_energy() {
 /// Three boxes in the plane, on two feet each, pushed each by a force that grows: 4 096 modes at one instant, and only 16 of each box.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x[3], y[3], turn[3]),
     define(
         left[k in 0..3] = y[k] - turn[k]*wide - tall,
@@ -195,6 +198,7 @@ fn boxes_begin_to_slide_one_by_one() {
 /// Two bobs on rods that just touch a floor each as they swing through.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x[2], y[2]),
     kinetic = sum(k in 0..2: (der(x[k])^2 + der(y[k])^2)/2),
     potential = sum(k in 0..2: gravity*y[k]),

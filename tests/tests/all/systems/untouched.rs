@@ -7,6 +7,7 @@ use lagrange_tests::{METHODS, TOLERANCES, agree, all_agree, certified, methods_a
 /// A block that dry friction of given strength keeps on a shaken table, and far from it a ball that bounces.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, z),
     kinetic = (der(x)^2 + der(y)^2 + der(z)^2)/2,
     potential = 9.81*z + spring*x^2/2,
@@ -61,6 +62,7 @@ fn a_block_sticks_on_through_impacts_elsewhere() {
 /// Three balls on a rough table, which may move; two of them touch.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x[3], y[3]),
     kinetic = sum(k in 0..3: 1/2*(der(x[k])^2 + der(y[k])^2)),
     contact(first: sqrt((x[1] - x[0])^2 + (y[1] - y[0])^2) >= 2*radius),

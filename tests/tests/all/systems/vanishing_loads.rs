@@ -9,6 +9,7 @@ use lagrange_tests::{
 /// A bead in a guide, held by one friction; and the same held by two that share the load.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     force(load: (slope * (size * sin(rate * t) + shift), size * sin(rate * t) + shift) at (x, y)),
@@ -65,6 +66,7 @@ fn a_bead_whose_load_passes_zero_inside_the_cone_stays() {
 /// A drawer on two shoes, pulled beside its middle so far that it jams: the couple presses both shoes, and friction holds at both.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, phi),
     kinetic = (der(x)^2 + der(y)^2) / 2 + inertia/2 * der(phi)^2,
     force(pull: x = size * sin(rate * t) + shift),
@@ -165,6 +167,7 @@ fn a_bead_whose_load_touches_zero_inside_the_cone_stays() {
 /// Two pads that share a load which falls to zero and grows again at once.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     define(load = size * abs(rate * t - 1)),

@@ -10,6 +10,7 @@ use lagrange_tests::{
 /// A bead on a circle in a plane that is inclined by `slope`, x downhill.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(r, theta),
     kinetic = mass/2 * (der(r)^2 + r^2 * der(theta)^2),
     potential = -mass * gravity * sin(slope) * r * cos(theta),
@@ -124,6 +125,7 @@ fn a_bead_rests_within_the_angle_of_friction() {
 /// A sleeve on a rod at an angle, in Cartesian coordinates: a block on an incline, whichever way the rod pushes.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = mass/2 * (der(x)^2 + der(y)^2),
     potential = mass * gravity * y,
@@ -176,6 +178,7 @@ fn a_sleeve_on_a_rod_slides_like_a_block() {
 /// A sleeve on a rod that turns at a constant rate in a level plane.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = mass/2 * (der(x)^2 + der(y)^2),
     constraint(rod: y * cos(rate * t) == x * sin(rate * t)),
@@ -262,6 +265,7 @@ fn all_methods_follow_the_bead() {
 /// Two slides joined by a slanting rod (Klein 1909): the lower one rubs in its guide, the upper one is pushed.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, u),
     kinetic = lower/2 * (der(x)^2 + der(y)^2) + upper/2 * der(u)^2,
     constraint(rod: sqrt((u - x)^2 + (height - y)^2) == length),
@@ -356,6 +360,7 @@ fn a_paradox_in_the_middle_of_a_run_keeps_the_trajectory() {
 /// A bead on a straight rough wire is pushed against a wall, which leans by `lean`, and pulled away from it later.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     potential = weight * y,
@@ -439,6 +444,7 @@ fn what_a_wire_shares_with_a_wall_stays_within_its_friction() {
 /// A bead on a straight rough wire that lies on a floor: a load presses it down or lifts it, and a pull along the wire is held by its friction.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     constraint(wire: y == 0),

@@ -9,6 +9,7 @@ use lagrange_tests::{agree, certified};
 
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(y: "m", sleeve: "rad", bird: "rad"),
     define(sleeve_mass = 0.3 * gram, bird_mass = 4.5 * gram),
     kinetic = (sleeve_mass + bird_mass)/2 * der(y)^2
@@ -149,6 +150,7 @@ fn a_start_below_a_surface_is_moved_onto_it() {
 /// A box that was put through the floor: both corners come out of it, and what it does then is certified.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(x, y, phi),
     kinetic = (der(x)^2 + der(y)^2)/2 + der(phi)^2/40,
     potential = 9.81 * y,

@@ -7,6 +7,7 @@ use lagrange_tests::{METHODS, agree, certified, event, run_by, runge_kutta, word
 
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
+    emit = data,
     coordinates(phi, x, y),
     kinetic = inertia/2 * der(phi)^2 + mass/2 * (der(x)^2 + der(y)^2),
     potential = stiffness/2 * x^2 - push * x + mass * gravity * y,

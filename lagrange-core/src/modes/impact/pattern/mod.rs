@@ -53,6 +53,18 @@ pub(super) struct Phase<T> {
     pub struck: Vec<bool>,
     /// Per touch: takes part.
     pub within: Vec<bool>,
+    /// Per row: nothing ties it to the touches that take part. Empty where that is not looked at.
+    pub apart: Vec<bool>,
+}
+
+impl<T> Phase<T> {
+    /// Whether what presses a friction takes part.
+    pub fn includes(&self, rub: &FrictionRow<T>) -> bool {
+        match rub.bearer {
+            NormalSource::ContactRow(k) => self.within[k],
+            NormalSource::ConstraintRow(row) => !self.apart.get(row).is_some_and(|apart| *apart),
+        }
+    }
 }
 
 /// A combination and its solution.
@@ -84,10 +96,9 @@ impl<T: Scalar> Pattern<T> {
     /// Whether friction `rub` can have an impulse.
     pub fn bears(&self, rub: &FrictionRow<T>, phase: &Phase<T>) -> bool {
         rub.is_rough()
+            && phase.includes(rub)
             && match rub.bearer {
-                NormalSource::ContactRow(k) => {
-                    phase.within[k] && (self.pressed[k] || phase.least[k].value() > 0.0)
-                }
+                NormalSource::ContactRow(k) => self.pressed[k] || phase.least[k].value() > 0.0,
                 NormalSource::ConstraintRow(_) => true,
             }
     }

@@ -17,24 +17,25 @@ const SAME: f64 = 1e-9;
 
 impl<T: Scalar> Search<T> {
     /// Number of combinations, unless it is beyond counting.
-    pub(super) fn combinations(&self, c: &Collision<T>) -> Option<usize> {
+    pub(super) fn combinations(&self, c: &Collision<T>, phase: &Phase<T>) -> Option<usize> {
         let contacts = 1_usize.checked_shl(self.taking.len() as u32)?;
-        let mut rough = c.rubs.iter().filter(|rub| rub.is_rough());
-        rough.try_fold(contacts, |n, rub| {
+        c.acting(phase).try_fold(contacts, |n, rub| {
             n.checked_mul(if rub.components == 1 { 3 } else { 2 })
         })
     }
 
     /// Leaves in `pattern` the solution that counts, and the others in `others`; false if there is none.
     pub(super) fn enumerate(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
-        let few = self.combinations(c).is_some_and(|n| n <= FEW);
+        let few = self.combinations(c, phase).is_some_and(|n| n <= FEW);
+        let several = few && self.taking.len() > 1 && c.acting(phase).next().is_some();
         let mut found: Vec<Pattern<T>> = Vec::new();
         for open in 0..1_usize << self.taking.len() {
             let before = found.len();
-            if self.list_with(open, few, &mut found, c, phase) {
+            if self.list_with(open, few, several, &mut found, c, phase) {
                 return true;
             }
-            if before == 0 && !found.is_empty() && !found.iter().any(|found| found.may_jam(c)) {
+            let first = before == 0 && !found.is_empty();
+            if first && !several && !found.iter().any(|found| found.may_jam(c)) {
                 break;
             }
         }
@@ -44,8 +45,9 @@ impl<T: Scalar> Search<T> {
     /// Where less holds what slides than what sticks, several solutions may have the same contacts pressed as the one in `pattern`: leaves that in it which
     /// counts, and the others in `others`.
     pub(super) fn weigh(&mut self, c: &Collision<T>, phase: &Phase<T>) {
-        let mut rough = c.rubs.iter().filter(|rub| rub.is_rough());
-        let differ = rough.any(|rub| rub.stick.value() > rub.slide.value());
+        let differ = c
+            .acting(phase)
+            .any(|rub| rub.stick.value() > rub.slide.value());
         let free = |(bit, &k): (usize, &usize)| usize::from(!self.pattern.pressed[k]) << bit;
         let few = self.taking.len() < usize::BITS as usize;
         if !differ || self.pattern.undetermined || !few {
@@ -67,17 +69,20 @@ impl<T: Scalar> Search<T> {
             return;
         }
         let mut found = Vec::new();
-        if !(self.list_with(open, true, &mut found, c, phase) || self.take_least(found, phase)) {
+        if !(self.list_with(open, true, false, &mut found, c, phase)
+            || self.take_least(found, phase))
+        {
             self.pattern = first;
         }
     }
 
     /// Lists the solutions with the contacts free that `open` has bits for in which most sticks. Whether the first one, which is then in `pattern`, is all that
-    /// need be looked at; unless `all` are listed it is where nothing jams.
+    /// need be looked at: unless others are looked for with other contacts pressed (`several`), and unless `all` are listed, it is where nothing jams.
     fn list_with(
         &mut self,
         open: usize,
         all: bool,
+        several: bool,
         found: &mut Vec<Pattern<T>>,
         c: &Collision<T>,
         phase: &Phase<T>,
@@ -87,7 +92,7 @@ impl<T: Scalar> Search<T> {
         while self.next_solution(c, phase) {
             let sticking = self.sticking();
             let alone = !all || self.acting.len() < 2 || sticking == self.acting.len();
-            if found.is_empty() && alone && !self.pattern.may_jam(c) {
+            if found.is_empty() && alone && !several && !self.pattern.may_jam(c) {
                 return true;
             }
             if sticking > most {
@@ -184,8 +189,16 @@ impl<T: Scalar> Search<T> {
     }
 }
 
+impl<T: Scalar> Collision<T> {
+    /// Frictions that can act.
+    pub(super) fn acting(&self, phase: &Phase<T>) -> impl Iterator<Item = &FrictionRow<T>> {
+        let rubs = self.rubs.iter();
+        rubs.filter(|rub| rub.is_rough() && phase.includes(rub))
+    }
+}
+
 impl<T: Scalar> Pattern<T> {
-    /// Whether friction holds fast between several contacts: only then other contacts may be pressed as well.
+    /// Whether friction holds fast between several contacts: of many combinations those with other contacts pressed are looked at only then.
     fn may_jam(&self, c: &Collision<T>) -> bool {
         let holds = |(rub, slide): (&FrictionRow<T>, &Slide)| {
             *slide == Slide::Stick && matches!(rub.bearer, NormalSource::ContactRow(_))

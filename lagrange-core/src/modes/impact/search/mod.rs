@@ -10,7 +10,7 @@ mod enumeration;
 mod guesses;
 mod turned;
 
-use super::collision::{Collision, FrictionRow};
+use super::collision::Collision;
 use super::complement::Linear;
 use super::pattern::{Pattern, Phase};
 use super::relaxation::Relaxation;
@@ -75,9 +75,9 @@ impl<T: Scalar> Search<T> {
 
     /// The same for the present leeway.
     fn find_within(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
-        let count = self.combinations(c);
-        let turning = |rub: &&FrictionRow<T>| rub.components > 1 && rub.is_rough();
-        let several = c.rubs.iter().filter(turning).count() > 1;
+        let count = self.combinations(c, phase);
+        let turning = c.acting(phase).filter(|rub| rub.components > 1);
+        let several = turning.count() > 1;
         if several {
             return self.relax(c, phase)
                 || self.complement(c, phase)
