@@ -38,7 +38,8 @@ pub struct SwitchFacts {
     pub again: bool,
     /// What evaluation leaves of the forces that have been located as zero, relative to the terms that they are made of.
     pub residue: f64,
-    /// How long the present mode has lasted, or as far as its last step could have gone, s: the time to whose errors an instant is located.
+    /// How long the present mode has lasted, or as far as its last step could have gone, s: the time to whose errors an instant is located. Infinite where
+    /// there has been none.
     pub lasted: f64,
 }
 
@@ -47,6 +48,11 @@ impl SwitchFacts {
     pub fn may_act(&self, friction: usize, d: &Description, effects: &Effects) -> bool {
         let normal = d.frictions[friction].normal;
         normal.presses(|c| self.touching[c]) && effects.includes(d, Item::Friction(friction))
+    }
+
+    /// Whether there is no mode that could go on: the present one is that of a start, a guess.
+    pub fn begins(&self) -> bool {
+        self.lasted.is_infinite()
     }
 
     /// Nothing is known.

@@ -78,7 +78,7 @@ impl Parts {
         }
     }
 
-    /// Whether something has happened to a part of which its present mode does not know.
+    /// Whether something has happened to a part of which its present mode does not know, or nothing has been decided yet.
     pub fn is_concerned(
         &self,
         part: usize,
@@ -98,7 +98,8 @@ impl Parts {
         };
         let mut contacts = (0..self.contacts.len()).filter(|&c| self.contacts[c] == part);
         let mut frictions = (0..self.frictions.len()).filter(|&f| self.frictions[f] == part);
-        roots.into_iter().any(is_here)
+        facts.begins()
+            || roots.into_iter().any(is_here)
             || contacts.any(|c| {
                 facts.touching[c] != present.contacts[c] || facts.arriving[c] || facts.parting[c]
             })
