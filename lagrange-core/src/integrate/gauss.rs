@@ -127,9 +127,11 @@ impl<T: Scalar> Gauss<T> {
         (out.t, out.h) = (t, h);
         for i in 0..self.coordinates {
             let start = [q[i], v[i], self.ends[0][i]];
-            let end = [end_q[i], end_v[i], self.ends[1][i]];
+            let changes = [v[i] + h * self.weighted(B_A, i), self.weighted(B, i)];
+            let [change_q, change_v] = changes.map(|change| h * change);
+            let end = [change_q, change_v, self.ends[1][i]];
             let (q, v) = out.rows_mut(i);
-            hermite::quintic(h, [start, end], q, v);
+            hermite::quintic(h, start, end, q, v);
         }
         out.close_onto(end_q, end_v);
         let [end_q, end_v] = &mut self.end.1;

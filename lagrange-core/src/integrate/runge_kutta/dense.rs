@@ -80,15 +80,16 @@ impl<T: Scalar> RungeKutta<T> {
 
     fn write_hermite(&mut self, out: &mut StepPolynomial<T>) {
         let n = self.coordinates;
-        let end = self.tableau.end * self.width;
+        let end = self.tableau.end;
+        let changes = &mut self.stage;
+        combine(changes, None, out.h, self.tableau.stages[end], &self.k);
         for i in 0..n {
-            let ends = [
-                [self.start.y[i], self.start.y[n + i], self.k[n + i]],
-                [self.end.y[i], self.end.y[n + i], self.k[end + n + i]],
-            ];
+            let start = [self.start.y[i], self.start.y[n + i], self.k[n + i]];
+            let a = self.k[end * self.width + n + i];
+            let end = [changes[i], changes[n + i], a];
             let h = out.h;
             let (q, v) = out.rows_mut(i);
-            hermite::quintic(h, ends, q, v);
+            hermite::quintic(h, start, end, q, v);
         }
     }
 }

@@ -250,19 +250,20 @@ impl<T: Scalar> Collider<T> {
         }
     }
 
-    /// Other impacts that satisfy the law, where it has one phase.
+    /// Other impacts that satisfy the law, where it has one phase: of several groups of contacts each time one does something else.
     fn write_others(&mut self, d: &Description, v: &[T]) {
         self.outcome.others.clear();
-        let whole =
-            self.collision.touches.iter().all(|touch| !touch.poisson) && self.turns.count == 1;
-        if !(whole && self.turns.ambiguous) {
+        if self.collision.touches.iter().any(|touch| touch.poisson) {
             return;
         }
         let mut out = Impact::default();
-        for other in &self.law.search.others {
+        let taken = &self.turns.impulses;
+        for other in &self.turns.others {
             out.impulses.clear();
             out.impulses.resize(d.rows.len(), T::zero());
-            self.gathering.apply(&other.impulses, v, &mut out);
+            let impulses = taken.iter().zip(other);
+            let impulses: Vec<T> = impulses.map(|(taken, more)| *taken + *more).collect();
+            self.gathering.apply(&impulses, v, &mut out);
             self.outcome.others.push(OtherImpact {
                 v_after: out.v.clone(),
                 impulses: out.impulses.clone(),

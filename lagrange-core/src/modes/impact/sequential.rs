@@ -31,6 +31,8 @@ pub(super) struct Turns<T> {
     pub undetermined: bool,
     pub lowered: bool,
     pub ambiguous: bool,
+    /// What other impulses satisfy the law as well, of those of one group, less those taken. They are not known where impacts have followed each other.
+    pub others: Vec<Vec<T>>,
     /// Number of impacts.
     pub count: usize,
     /// Largest rate so far.
@@ -70,6 +72,9 @@ impl<T: Scalar> Turns<T> {
             self.add(law);
         }
         self.settle(c, law);
+        if self.count > 1 {
+            self.others.clear();
+        }
         Ok(())
     }
 
@@ -112,6 +117,7 @@ impl<T: Scalar> Turns<T> {
         law.phase.within.clear();
         law.phase.within.resize(c.touches.len(), false);
         law.phase.apart.clear();
+        self.others.clear();
     }
 
     /// Adds an impact.
@@ -120,6 +126,11 @@ impl<T: Scalar> Turns<T> {
         self.lowered |= law.lowered;
         self.ambiguous |= law.ambiguous;
         self.rates.copy_from_slice(&law.after);
+        for other in &law.search.others {
+            let pairs = other.impulses.iter().zip(&law.impulses);
+            self.others
+                .push(pairs.map(|(other, taken)| *other - *taken).collect());
+        }
         for (sum, &impulse) in self.impulses.iter_mut().zip(&law.impulses) {
             *sum += impulse;
         }

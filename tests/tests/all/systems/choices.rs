@@ -202,3 +202,51 @@ fn what_slips_elsewhere_does_not_make_shared_loads_a_choice() {
         }
     }
 }
+
+/// A rod that slides on its tip (Painlevé 1895), beside four blocks that rest.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    emit = data,
+    coordinates(x, y, phi, across[4], up[4]),
+    define(tip_x = x - cos(phi), tip_y = y - sin(phi)),
+    kinetic = (der(x)^2 + der(y)^2) / 2 + der(phi)^2 / 6 + (dot(der(across), der(across)) + dot(der(up), der(up))) / 2,
+    potential = gravity * (y + up[0] + up[1] + up[2] + up[3]),
+    contact(tip: tip_y >= 0),
+    contact(first: up[0] >= 0),
+    contact(second: up[1] >= 0),
+    contact(third: up[2] >= 0),
+    contact(fourth: up[3] >= 0),
+    friction(grip on tip: slip = der(tip_x), static = mu),
+    friction(first_grip on first: slip = der(across[0]), static = 0.5),
+    friction(second_grip on second: slip = der(across[1]), static = 0.5),
+    friction(third_grip on third: slip = der(across[2]), static = 0.5),
+    friction(fourth_grip on fourth: slip = der(across[3]), static = 0.5),
+    start(pushed: y = sin(1), phi = 1, der(x) = -1 - rate * sin(1), der(y) = rate * cos(1), der(phi) = rate),
+)]
+struct RodBesideBlocks {
+    gravity: f64,
+    mu: f64,
+    rate: f64,
+}
+
+/// The tip would rise, for the normal force without friction, g - ω² sin φ, is negative, and friction of more than 1.2 or so presses it down all the same: it may
+/// also fly. Of a thousand modes of all bodies together those of each are looked at by themselves, at the start too.
+#[test]
+fn a_rod_may_fly_or_stay_beside_any_number_of_blocks() {
+    for (mu, rate) in [(1.6, 4.0), (1.7, 4.5), (1.8, 5.0)] {
+        let scene = RodBesideBlocks {
+            gravity: 9.81,
+            mu,
+            rate,
+        };
+        // Of the tip that slides backward, per unit of normal force: its rise, 1 + 3 c (c - μ s).
+        let (s, c) = 1.0_f64.sin_cos();
+        let lifts = rate * rate * s - scene.gravity;
+        assert!(lifts > 0.0 && 1.0 + 3.0 * c * (c - mu * s) < 0.0);
+        for method in METHODS {
+            let setting = (method, 1e-9);
+            let record = run_by(&scene, setting, scene.at(RodBesideBlocks::PUSHED), 0.005);
+            assert_eq!(words(&record), ["tip ambiguous"], "{method} {mu}");
+        }
+    }
+}

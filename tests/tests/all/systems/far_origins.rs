@@ -3,7 +3,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{Random, agree, event, run_by};
+use lagrange_tests::{Random, agree, event, run_by, words};
 
 /// A block lies on a plate that a spring holds and a force shakes; all is counted from an origin.
 #[derive(Lagrangian, Clone, Debug)]
@@ -127,5 +127,31 @@ fn a_stiff_wall_is_left_wherever_it_is_counted_from() {
             agree(&asked, there[0], here[0], 1e4 * tolerance);
             agree(&asked, there[1], here[1], 1e5 * tolerance);
         }
+    }
+}
+
+/// A block that is pulled harder than its friction holds.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    force(pull: x = 1),
+    friction(grip: slip = der(x), limit = (0.5, 0.4)),
+)]
+struct Pulled {}
+
+/// What a short step moves it by at first is less than rounding of where it is.
+#[test]
+fn a_slow_beginning_is_seen_far_from_the_origin() {
+    for (method, until, x) in [
+        ("rk4:1e-9", 1e-8, 0.3),
+        ("gauss6:1e-9", 1e-8, 0.3),
+        ("rk4:1e-7", 1e-6, 100.0),
+        ("gauss6:1e-7", 1e-6, 100.0),
+        ("rk4:1e-5", 1e-4, 1e6),
+    ] {
+        let record = run_by(&Pulled {}, (method, 1e-9), state(&[x], &[0.0]), until);
+        agree(method, record.final_state().v[0], 0.6 * until, 1e-9 * until);
+        assert_eq!(words(&record), ["grip slips"], "{method}");
     }
 }

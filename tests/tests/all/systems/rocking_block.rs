@@ -173,3 +173,84 @@ fn a_block_may_rock_on_or_lie_down() {
         }
     }
 }
+
+/// The same beside a block that rests and a slide on a rough rail, which have nothing to do with it.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    emit = data,
+    coordinates(x, y, theta, across, up, slide, rise),
+    kinetic = (der(x)^2 + der(y)^2) / 2 + (b^2 + h^2)/6 * der(theta)^2
+        + (der(across)^2 + der(up)^2 + der(slide)^2 + der(rise)^2) / 2,
+    potential = 9.81 * (y + up + rise),
+    define(
+        left_x = x - b * cos(theta) + h * sin(theta),
+        left_y = y - b * sin(theta) - h * cos(theta),
+        right_x = x + b * cos(theta) + h * sin(theta),
+        right_y = y + b * sin(theta) - h * cos(theta),
+    ),
+    constraint(rail: rise == 0),
+    contact(left: left_y >= 0),
+    contact(right: right_y >= 0),
+    contact(table: up >= 0),
+    friction(left_grip on left: slip = der(left_x), static = holds, kinetic = drags),
+    friction(right_grip on right: slip = der(right_x), static = holds, kinetic = drags),
+    friction(rests on table: slip = der(across), static = 0.5),
+    friction(rubs on rail: slip = der(slide), static = 0.2),
+    start(leans: theta = -lean, x = h * sin(lean) - b * cos(lean), y = h * cos(lean) + b * sin(lean), der(slide) = 3),
+)]
+struct Accompanied {
+    b: f64,
+    h: f64,
+    holds: f64,
+    drags: f64,
+    lean: f64,
+}
+
+/// How many ways there are to go on, and which is taken, is no matter of bodies elsewhere.
+#[test]
+fn what_is_elsewhere_decides_nothing() {
+    for (b, h, holds, drags, lean) in [
+        (0.5, 0.5, 0.7, 0.3, 0.1),
+        (0.5, 0.6, 0.65, 0.1, 0.05),
+        (0.6, 0.5, 0.8, 0.3, 0.08),
+        (0.4, 0.6, 0.6, 0.2, 0.1),
+    ] {
+        let alone = Leaning {
+            b,
+            h,
+            holds,
+            drags,
+            lean,
+        };
+        let beside = Accompanied {
+            b,
+            h,
+            holds,
+            drags,
+            lean,
+        };
+        let alone = run(&alone, alone.at(Leaning::LEANS), 0.5);
+        let record = run(&beside, beside.at(Accompanied::LEANS), 0.5);
+        let told = |record: &Trajectory<f64>| {
+            let event = record
+                .events()
+                .iter()
+                .find(|event| event.kind == EventKind::Impact);
+            let event = event.expect("it falls back");
+            let others = event
+                .other_impacts
+                .iter()
+                .map(|other| other.v_after[..3].to_vec());
+            (
+                event.state_after.v[..3].to_vec(),
+                others.collect::<Vec<_>>(),
+            )
+        };
+        let ((taken, others), (taken_beside, others_beside)) = (told(&alone), told(&record));
+        assert_eq!(others.len(), others_beside.len());
+        let pairs = taken.iter().chain(others.iter().flatten());
+        for (x, y) in pairs.zip(taken_beside.iter().chain(others_beside.iter().flatten())) {
+            agree("rate", *y, *x, 1e-9);
+        }
+    }
+}
