@@ -2,6 +2,7 @@
 
 use super::cursor::Cursor;
 use super::words::{DEGREES, FUNCTIONS, RELATIONS, is_degree, is_keyword};
+use crate::ast::ModeWord;
 use crate::diagnostics::{Code, Diagnostics};
 use proc_macro2::{Delimiter, TokenTree};
 
@@ -77,6 +78,10 @@ fn missing_operator(cursor: &Cursor, sink: &mut Diagnostics) {
         Some(word) if FUNCTIONS.contains(&word.text.as_str()) => {
             format!("arguments stand in parentheses: `{}(…)`", word.text)
         }
+        _ if cursor.word().is_some_and(|word| is_mode(&word.text)) => {
+            "the mode in which a check holds stands behind `when`: `check(floor == m*g when closed(floor))`"
+                .to_string()
+        }
         None if cursor.literal_behind()
             && cursor.word().is_some_and(|word| is_degree(&word.text)) =>
         {
@@ -93,6 +98,11 @@ fn missing_operator(cursor: &Cursor, sink: &mut Diagnostics) {
         cursor.here(),
         &[&cursor.found(), &hint],
     );
+}
+
+/// Whether a word tells of a mode, `closed`.
+fn is_mode(word: &str) -> bool {
+    ModeWord::ALL.iter().any(|(text, _)| *text == word)
 }
 
 /// Whether what is here looks like the next part or item.

@@ -226,6 +226,7 @@ fn mistakes_point_at_their_token() {
         ("kinetic = if(x, y, z)", "2:14 E011"),
         ("kinetic = if(x >= 1, y)", "2:11 E301"),
         ("check(a: x)", "2:10 E001"),
+        ("check(x == y closed(c))", "2:14 E026"),
         ("friction(f on c: slip = x)", "2:10 E018"),
         ("friction(f on c: static = x)", "2:10 E018"),
         ("friction(f on (): slip = x, static = 1)", "2:16 E001"),

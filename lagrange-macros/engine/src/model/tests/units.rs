@@ -104,6 +104,10 @@ fn wrong_units_are_told_at_the_term() {
             "3:13 E704 a potential energy is in J, and this is in kg m; `9.81` is a plain number: make it a field with `#[lagrange(unit = \"m/s²\")]`",
         ),
         (
+            "potential = 9.81*a, force(p: x = a)",
+            "3:13 E704 a potential energy is in J, and this is in N; `9.81` is a plain number: make it a field with `#[lagrange(unit = \"m\")]`",
+        ),
+        (
             "potential = m*g*l*cos(x)",
             "3:23 E704 the argument of `cos` is a plain number, and this is in m; a factor in 1/m is missing",
         ),

@@ -31,6 +31,9 @@ impl Checker<'_, '_> {
 
     /// What to do about an expression that has another unit than the wanted one.
     pub fn remedy(&mut self, wanted: &Quantity, found: &Quantity, expr: &Expr) -> String {
+        if constant(expr).is_some() {
+            return self.missing(wanted, found, expr);
+        }
         let mut names = Vec::new();
         expr.names_into(&mut names);
         let inferred = names.into_iter().find_map(|name| {
