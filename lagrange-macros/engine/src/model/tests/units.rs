@@ -104,8 +104,8 @@ fn wrong_units_are_told_at_the_term() {
             "3:13 E704 a potential energy is in J, and this is in kg m; `9.81` is a plain number: make it a field with `#[lagrange(unit = \"m/s²\")]`",
         ),
         (
-            "kinetic = a/2*der(x)^2, potential = 9.81*a*x",
-            "3:37 E704 a potential energy is in J, and this is in kg m; `9.81` is a plain number: make it a field with `#[lagrange(unit = \"m/s²\")]`",
+            "kinetic(slide: a/2*der(x)^2), potential = 9.81*a*x",
+            "3:43 E704 a potential energy is in J, and this is in kg m; `9.81` is a plain number: make it a field with `#[lagrange(unit = \"m/s²\")]`",
         ),
         (
             "potential = m*g*l*cos(x)",
