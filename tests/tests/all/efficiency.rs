@@ -48,7 +48,7 @@ fn work_on_the_wheel_does_not_grow() {
             verner98         17         0          549       4               0            0
             radau5          281         0         4977       4               9            0
             rk4:0.005       603         0         9670       4               0            0
-            gauss6:0.01     303         0         7328       4               0            0
+            gauss6:0.01     303         0         7327       4               0            0
         "#]],
     );
 }
@@ -66,7 +66,7 @@ fn work_on_the_cartesian_pendulum_does_not_grow() {
             verner98        119         0         2901       2              18           42
             radau5         3077         0        27910       1             207            2
             rk4:0.005      2000         0        13885       1             262         1884
-            gauss6:0.01    1000         0        17060       1               0            0
+            gauss6:0.01    1000         0        17036       1               0            0
         "#]],
     );
 }

@@ -54,7 +54,6 @@ fn what_comes_before_the_last_bounce_is_not_put_off() {
 /// Balls one upon the other. The floor gives back what it takes; they lose to each other what they fall with.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    emit = data,
     coordinates(low, middle, high),
     kinetic = (first * der(low)^2 + second * der(middle)^2 + der(high)^2) / 2,
     potential = 10 * (first * low + second * middle + high),

@@ -82,7 +82,6 @@ fn after_a_landing_the_constraint_holds_to_rounding_at_any_tolerance() {
 /// A plank that hangs on a crank and on a string; its centre of mass lies beside its reference point.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    emit = data,
     coordinates(x, y, theta, phi),
     kinetic = mass/2*(der(x)^2 + der(y)^2) + inertia/2*der(theta)^2 + crank/2*der(phi)^2
         + mass*offset*der(theta)*(der(y)*cos(theta) - der(x)*sin(theta)),

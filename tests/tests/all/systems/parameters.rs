@@ -177,7 +177,6 @@ fn friction_holds_although_there_was_none_in_the_run_before() {
 /// A bead slides down outside a smooth parabola.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    emit = data,
     coordinates(x, y),
     kinetic = mass/2 * (der(x)^2 + der(y)^2),
     potential = mass * gravity * y,

@@ -525,7 +525,6 @@ fn what_passes_below_an_edge_is_certified() {
 /// A smooth ramp that ends at the edge of a table.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    emit = data,
     coordinates(x, y),
     kinetic = (der(x)^2 + der(y)^2) / 2,
     potential = gravity * y,
