@@ -47,7 +47,7 @@ fn work_on_the_wheel_does_not_grow() {
             dopri5           96         0         1560       4               0            0
             verner98         17         0          549       4               0            0
             radau5          281         0         4977       4               9            0
-            rk4:0.005       603         0         9670       4               0            0
+            rk4:0.005       603         0         9666       4               0            0
             gauss6:0.01     303         0         7327       4               0            0
         "#]],
     );
