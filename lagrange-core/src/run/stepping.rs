@@ -109,7 +109,7 @@ impl<T: Scalar> Stepper<T> {
     /// Forgets what belongs to another motion; the method is the one that was asked for.
     pub(super) fn restart(&mut self) {
         self.control = DefectControl::default();
-        (self.wanted, self.guarded) = (None, None);
+        (self.wanted, self.guarded, self.undirected) = (None, None, None);
         (self.breaks, self.looked) = (0, NOT_LOOKED);
         self.astray = 0.0;
         self.resolution = Resolution::default();

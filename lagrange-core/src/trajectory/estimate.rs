@@ -243,14 +243,13 @@ impl Summary {
 
     /// The first event from `from` on that is later than this, or none of a contact or of its friction.
     fn after_turns(&self, from: usize, time: f64) -> usize {
-        use EventKind::{Accumulates, Closed, Impact, Lost, Reverses, Slips, Sticks};
-        let switches = self.events[from..].iter().take_while(|(_, kind, at)| {
-            let kinds = matches!(
-                kind,
-                Lost | Closed | Impact | Accumulates { .. } | Slips | Sticks | Reverses
-            );
-            kinds && *at <= time
-        });
+        let switches = self.events[from..]
+            .iter()
+            .take_while(|(subject, kind, at)| {
+                matches!(subject, Subject::Contact(_) | Subject::Friction(_))
+                    && *kind != EventKind::Ambiguous
+                    && *at <= time
+            });
         from + switches.count()
     }
 

@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, closure, integral, root, run};
+use lagrange_tests::{agree, closure, event, integral, root, run};
 
 /// Half width b, half height h, turned by θ counter-clockwise about its center.
 #[derive(Lagrangian, Clone, Debug)]
@@ -147,11 +147,7 @@ fn a_block_may_rock_on_or_lie_down() {
             lean,
         };
         let record = run(&block, block.at(Leaning::LEANS), 0.5);
-        let event = record
-            .events()
-            .iter()
-            .find(|event| event.kind == EventKind::Impact);
-        let event = event.expect("it falls back");
+        let event = event(&record, "left", "impact");
         let rate = event.state.v[2];
         let share = 1.0 - 1.5 * b * b / (b * b + h * h);
         let before = [-h * rate, -b * rate, rate];
@@ -232,11 +228,7 @@ fn what_is_elsewhere_decides_nothing() {
         let alone = run(&alone, alone.at(Leaning::LEANS), 0.5);
         let record = run(&beside, beside.at(Accompanied::LEANS), 0.5);
         let told = |record: &Trajectory<f64>| {
-            let event = record
-                .events()
-                .iter()
-                .find(|event| event.kind == EventKind::Impact);
-            let event = event.expect("it falls back");
+            let event = event(record, "left", "impact");
             let others = event
                 .other_impacts
                 .iter()
