@@ -29,6 +29,9 @@ const STEPS_OF_ROUNDING: usize = 16;
 /// A force this near to its limit, relative, is at it if it was.
 const AT_LIMIT: f64 = 1e-13;
 
+/// and, of methods other than Taylor's, to so many tolerances: by that much they are off where a slip has come to rest.
+const ERRORS: f64 = 10.0;
+
 impl<T: Scalar> Run<T> {
     /// One step, cut short by the first thing that happens in it.
     pub(crate) fn advance(&mut self) -> Result<(), Error> {
@@ -217,7 +220,11 @@ impl<T: Scalar> Run<T> {
         if self.locator.at_limit.is_empty() {
             return;
         }
-        self.locator.blur = self.blur_at_limit();
+        let error = match self.stepper.other {
+            Some(_) => ERRORS * self.settings.tolerance,
+            None => 0.0,
+        };
+        self.locator.blur = self.blur_at_limit().max(error);
         let Switcher { decider, .. } = &mut self.switcher;
         let limit = AT_LIMIT.max(self.locator.blur);
         self.locator.at_limit.retain_mut(|(guard, size)| {

@@ -266,14 +266,14 @@ impl<T: Scalar> Run<T> {
         {
             return Some((0.0, 0.0));
         }
-        let root = find_root_until(curve, until, |root| {
+        let (s, width) = find_root_until(curve, until, |root| {
             let falls = root.direction == Direction::Falling && !root.grazing;
-            match falls && !self.is_held_at(guard, root.s) && self.within_region(guard, root.s) {
-                true => Break(root),
+            let (s, width) = self.place(guard, &root);
+            match falls && !self.is_held_at(guard, s) && self.within_region(guard, s) {
+                true => Break((s, width)),
                 false => Continue(()),
             }
         })?;
-        let (s, width) = self.place(guard, &root);
         Some((self.with_residues(guard, whole, s), width))
     }
 

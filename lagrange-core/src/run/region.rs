@@ -69,18 +69,25 @@ impl<T: Scalar> Run<T> {
             return true;
         }
         // Just after the edge has been located, its first coefficient is zero.
-        let is_in = |curve| value(curve, s) >= 0.0;
+        let is_in = |curve| self.known_at(edge, curve, s) >= 0.0;
         !self.leaves(c, curve, s) && self.judged(edge, curve).is_none_or(is_in)
     }
 
     /// Whether the motion is at the edge of contact `c`, of this curve, and goes out.
     fn leaves(&self, c: usize, edge: &[f64], s: f64) -> bool {
-        self.falls_here(Guard::Region(c), edge, s) && value(edge, s).abs() <= self.touching(c)
+        let guard = Guard::Region(c);
+        let distance = self.known_at(guard, edge, s).abs();
+        self.falls_here(guard, edge, s) && distance <= self.touching(c)
+    }
+
+    /// The value of a guard of this curve at part `s` of the step on the dense output.
+    fn known_at(&self, guard: Guard, curve: &[f64], s: f64) -> f64 {
+        value(curve, self.interpolated(guard, s))
     }
 
     /// Whether a guard of this curve falls through zero at part `s` of the step, as steps are located.
     fn falls_here(&self, guard: Guard, curve: &[f64], s: f64) -> bool {
-        let (distance, slope) = (value(curve, s).abs(), slope(curve, s));
+        let (distance, slope) = (self.known_at(guard, curve, s).abs(), slope(curve, s));
         slope < 0.0 && distance <= self.blur(guard, curve, distance).max(-SOON * slope)
     }
 
@@ -112,11 +119,12 @@ impl<T: Scalar> Run<T> {
         let Guard::Region(c) = edge else {
             return None;
         };
-        let gap = self.locator.polynomials.of(Guard::Gap(c))?;
+        let surface = Guard::Gap(c);
+        let gap = self.locator.polynomials.of(surface)?;
         let root = find_root(self.judged(edge, curve)?, Break)?;
         let enters = root.direction == Direction::Rising && !root.grazing;
         let (s, width) = self.place(edge, &root);
-        let touches = value(gap, s).abs() <= self.touching(c);
+        let touches = self.known_at(surface, gap, s).abs() <= self.touching(c);
         (enters && touches && !self.is_held_at(edge, s)).then_some((s, width))
     }
 
@@ -144,7 +152,7 @@ impl<T: Scalar> Run<T> {
             {
                 continue;
             }
-            let gap = value(curve, end);
+            let gap = self.known_at(guard, curve, end);
             // Within the region it can only be a root that rounding has put into the next step.
             let blur = self.blur(guard, curve, gap.abs());
             let passed = gap < -blur.max(self.touching(c)) || !self.within_region(guard, end);
@@ -203,10 +211,13 @@ impl<T: Scalar> Run<T> {
             let Guard::Region(c) = edge else {
                 continue;
             };
-            let (distance, slope) = (value(curve, end).abs(), slope(curve, end));
-            let crosses = match polynomials.of(Guard::Gap(c)) {
+            let (distance, slope) = (self.known_at(edge, curve, end).abs(), slope(curve, end));
+            let surface = Guard::Gap(c);
+            let crosses = match polynomials.of(surface) {
                 _ if self.now.mode.contacts[c] => slope < 0.0,
-                Some(gap) => slope > 0.0 && value(gap, end).abs() <= self.touching(c),
+                Some(gap) => {
+                    slope > 0.0 && self.known_at(surface, gap, end).abs() <= self.touching(c)
+                }
                 None => false,
             };
             // Polynomials are cut off where the tolerance allows it, and edges of surfaces that were entered are lowered by as much.
@@ -234,7 +245,7 @@ impl<T: Scalar> Run<T> {
         let mut fallen = core::mem::take(&mut self.locator.fallen);
         let polynomials = &self.locator.polynomials;
         for (guard, curve) in polynomials.of_mode() {
-            let gap = value(curve, end).abs();
+            let gap = self.known_at(guard, curve, end).abs();
             let size: f64 = curve.iter().map(|c| c.abs()).sum();
             if matches!(guard, Guard::Gap(_))
                 && !fallen.contains(&guard)
