@@ -177,15 +177,19 @@ impl<T: Scalar> Decider<T> {
         self.sized &= !here.facts.jumped;
         let refused = match self.decide_with(dynamics, table, here) {
             Ok(true) => None,
-            Ok(false) => Some(self.no_mode(dynamics, here)),
-            Err(error) => Some(Error::from_evaluation(error, time, dynamics.mode(), d)),
+            Ok(false) => Some(None),
+            Err(error) => {
+                let mode = dynamics.mode();
+                Some(Some(Error::from_evaluation(error, time, mode, d)))
+            }
         };
+        let tried = self.tried;
         if let Some(error) = refused
             && !self.goes_on(dynamics, table, here, false)
             && !self.decide_together(dynamics, table, here)
             && !self.goes_on(dynamics, table, here, true)
         {
-            return Err(error);
+            return Err(error.unwrap_or_else(|| self.no_mode(dynamics, table, here, tried)));
         }
         core::mem::swap(&mut self.decision.mode, &mut self.best);
         dynamics.set_mode(&self.decision.mode);
@@ -290,9 +294,26 @@ impl<T: Scalar> Decider<T> {
         here: SwitchContext<'_, T>,
         listings: &mut Listings,
     ) -> Result<bool, EvaluationError> {
-        let outcome = self.parts_in_turn(dynamics, table, here, listings);
+        let outcome = self.parts_in_turn(dynamics, table, here, listings, |_| ());
         self.undecided.fill(false);
         outcome
+    }
+
+    /// The part that has no mode, among several.
+    fn part_without_mode(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        table: &mut Table,
+        here: SwitchContext<'_, T>,
+    ) -> Option<usize> {
+        let mut listings = core::mem::take(&mut self.listings);
+        let mut found = None;
+        let note = |part| found = Some(part);
+        // What cannot be evaluated is no answer.
+        _ = self.parts_in_turn(dynamics, table, here, &mut listings, note);
+        self.undecided.fill(false);
+        self.listings = listings;
+        found
     }
 
     fn parts_in_turn(
@@ -301,6 +322,7 @@ impl<T: Scalar> Decider<T> {
         table: &mut Table,
         here: SwitchContext<'_, T>,
         listings: &mut Listings,
+        mut without_mode: impl FnMut(usize),
     ) -> Result<bool, EvaluationError> {
         let d = dynamics.description();
         let parts = &Parts::of(d, dynamics.effects(), here.facts);
@@ -325,6 +347,7 @@ impl<T: Scalar> Decider<T> {
                 return Ok(false);
             };
             if !self.search(dynamics, table, here, candidates)? {
+                without_mode(part);
                 return Ok(false);
             }
             ambiguous |= self.decision.ambiguous;
@@ -440,14 +463,23 @@ impl<T: Scalar> Decider<T> {
         self.listings = listings;
         match (feasible.is_empty(), failure) {
             (true, Some(error)) => Err(error),
-            (true, None) => Err(self.no_mode(dynamics, here)),
+            (true, None) => Err(self.no_mode(dynamics, table, here, self.tried)),
             (false, _) => Ok(feasible),
         }
     }
 
-    fn no_mode(&self, dynamics: &Dynamics<T>, here: SwitchContext<'_, T>) -> Error {
+    fn no_mode(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        table: &mut Table,
+        here: SwitchContext<'_, T>,
+        tried: usize,
+    ) -> Error {
         let d = dynamics.description();
-        let item = concerned(d, here.facts, here.present);
+        let part = self.part_without_mode(dynamics, table, here);
+        let parts = part.map(|part| (Parts::of(d, dynamics.effects(), here.facts), part));
+        let within = |guard: Guard| parts.as_ref().is_none_or(|(of, part)| of.has(*part, guard));
+        let item = concerned(d, here.facts, here.present, within);
         let holds = |(i, constraint): (usize, &Constraint)| {
             let contact = &d.contacts[constraint.while_contact?];
             let included = dynamics.effects().includes(d, Item::Constraint(i));
@@ -457,7 +489,7 @@ impl<T: Scalar> Decider<T> {
             time: here.moment.t.value(),
             mode: here.present.display(d).to_string(),
             item,
-            tried: self.tried,
+            tried,
             friction: dynamics.has_frictions(),
             branches: !d.branches.is_empty(),
             held: d.constraints.iter().enumerate().find_map(holds),
@@ -695,23 +727,24 @@ fn sticks(mode: &Mode) -> usize {
         .count()
 }
 
-fn concerned(d: &'static Description, facts: &SwitchFacts, present: &Mode) -> &'static str {
-    let located = facts.located.iter().find_map(|g| g.name(d));
-    let resting = facts
-        .resting
-        .iter()
-        .position(|r| *r)
-        .map(|f| d.frictions[f].name);
-    let touching = facts
-        .touching
-        .iter()
-        .position(|r| *r)
-        .map(|c| d.contacts[c].name);
-    let slides = |f: &FrictionMode| matches!(f, FrictionMode::Slip(_));
-    let slides = present.frictions.iter().position(slides);
-    let sliding = slides.map(|f| d.frictions[f].name);
+/// The name of what is concerned at an instant, among the guards that are `within` what has no mode.
+fn concerned(
+    d: &'static Description,
+    facts: &SwitchFacts,
+    present: &Mode,
+    within: impl Fn(Guard) -> bool,
+) -> &'static str {
+    let located = facts.located.iter().copied();
+    let [frictions, contacts] = [d.frictions.len(), d.contacts.len()];
+    let resting = (0..frictions)
+        .filter(|&f| facts.resting[f])
+        .map(Guard::Slip);
+    let touching = (0..contacts).filter(|&c| facts.touching[c]).map(Guard::Gap);
+    let slides = |f: &usize| matches!(present.frictions[*f], FrictionMode::Slip(_));
+    let sliding = (0..frictions).filter(slides).map(Guard::Slip);
+    let mut guards = located.chain(resting).chain(touching).chain(sliding);
+    let found = guards.find_map(|guard| guard.name(d).filter(|_| within(guard)));
     let balanced = facts.balanced.iter().position(|b| *b);
     let condition = balanced.map(|b| d.branches[b].then);
-    let found = located.or(resting).or(touching).or(sliding).or(condition);
-    found.unwrap_or(d.name)
+    found.or(condition).unwrap_or(d.name)
 }

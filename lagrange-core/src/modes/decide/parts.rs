@@ -78,6 +78,19 @@ impl Parts {
         }
     }
 
+    /// Whether a guard is one of a part.
+    pub fn has(&self, part: usize, guard: Guard) -> bool {
+        match guard {
+            Guard::Gap(c) | Guard::Normal(c) | Guard::Region(c) => self.contacts[c] == part,
+            Guard::StickUpper(f)
+            | Guard::StickLower(f)
+            | Guard::StickCone(f)
+            | Guard::Slip(f)
+            | Guard::NormalForceSign(f) => self.frictions[f] == part,
+            Guard::Branch(_) | Guard::Stop(..) | Guard::Mark(..) | Guard::Composite(_) => false,
+        }
+    }
+
     /// Whether something has happened to a part of which its present mode does not know, or nothing has been decided yet.
     pub fn is_concerned(
         &self,
@@ -86,20 +99,11 @@ impl Parts {
         d: &Description,
     ) -> bool {
         let SwitchContext { present, facts, .. } = here;
-        let roots = facts.located.iter().chain(&facts.touched);
-        let is_here = |guard: &Guard| match *guard {
-            Guard::Gap(c) | Guard::Normal(c) | Guard::Region(c) => self.contacts[c] == part,
-            Guard::StickUpper(f)
-            | Guard::StickLower(f)
-            | Guard::StickCone(f)
-            | Guard::Slip(f)
-            | Guard::NormalForceSign(f) => self.frictions[f] == part,
-            Guard::Branch(_) | Guard::Stop(..) | Guard::Mark(..) | Guard::Composite(_) => false,
-        };
+        let mut roots = facts.located.iter().chain(&facts.touched);
         let mut contacts = (0..self.contacts.len()).filter(|&c| self.contacts[c] == part);
         let mut frictions = (0..self.frictions.len()).filter(|&f| self.frictions[f] == part);
         facts.begins()
-            || roots.into_iter().any(is_here)
+            || roots.any(|&guard| self.has(part, guard))
             || contacts.any(|c| {
                 facts.touching[c] != present.contacts[c] || facts.arriving[c] || facts.parting[c]
             })

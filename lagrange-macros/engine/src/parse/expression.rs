@@ -320,6 +320,11 @@ fn over(
     kind: fn(Box<Index>, Box<Expr>) -> ExprKind,
 ) -> Option<ExprKind> {
     let index = index(&mut inside, sink)?;
+    if let Some(comma @ ",") = inside.operator() {
+        let hint = "they stand inside each other, `sum(i in 0..3: sum(j in 0..3: …))`";
+        sink.report(Code::Operator, inside.here(), &[&comma, &hint]);
+        return None;
+    }
     inside.require(":", sink)?;
     let body = whole(&mut inside, sink)?;
     Some(kind(Box::new(index), Box::new(body)))

@@ -35,6 +35,10 @@ pub(super) fn leftover(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<()
                 &[&operator, &"there is no remainder in the language"],
             );
         }
+        (_, Some(operator @ ",")) => {
+            let hint = "one index stands here: arrays have one, and an item has one for each value of another, `contact(first[j in 1..4]: …)`";
+            sink.report(Code::Operator, cursor.here(), &[&operator, &hint]);
+        }
         (_, Some(operator @ ";")) => {
             sink.report(
                 Code::Operator,

@@ -242,6 +242,9 @@ fn mistakes_point_at_their_token() {
         ("coordinates = x", "2:13 E001"),
         ("kinetic = \"text\"", "2:11 E021"),
         ("kinetic = 1 % 2", "2:13 E024"),
+        ("kinetic = sum(i in 0..3, j in 0..3: x[i])", "2:24 E024"),
+        ("contact(hit[i in 0..3, j in 0..3]: x >= 0)", "2:22 E024"),
+        ("kinetic = x[0, 1]", "2:14 E024"),
         ("kinetic = if(x >= 1 and y >= 1, x, y)", "2:21 E024"),
         ("contact(a: x >= y, at (x, y))", "2:20 E016"),
     ];

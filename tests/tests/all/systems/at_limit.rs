@@ -55,6 +55,33 @@ fn a_block_at_the_edge_of_its_dead_band_stays() {
     }
 }
 
+/// From three times as far on one side its spring carries it to the edge on the other, within half a period, and it stays there although errors of the
+/// motion have put it a little beyond.
+#[test]
+fn a_block_that_comes_to_rest_at_the_edge_of_its_dead_band_stays() {
+    for (method, tolerance) in methods_at(SINGLE_METHODS, TOLERANCES) {
+        let mut random = Random::new(67);
+        for _ in 0..20 {
+            let scene = Held {
+                mass: random.between(1.0, 10.0),
+                gravity: 9.81,
+                stiffness: random.between(1.0, 20.0),
+                mu: random.between(0.1, 0.9),
+                load: 0.0,
+            };
+            let edge = random.sign() * scene.mu * scene.mass * scene.gravity / scene.stiffness;
+            let half = core::f64::consts::PI * (scene.mass / scene.stiffness).sqrt();
+            let start = state(&[-3.0 * edge, 0.0], &[0.0; 2]);
+            let run = run_by(&scene, (method, tolerance), start, 3.0 * half);
+            let what = format!("{scene:?} by {method} at {tolerance:e}");
+            assert_eq!(words(&run), ["grip slips", "grip sticks"], "{what}");
+            let within = 20.0 * tolerance.max(1e-11) * edge.abs().max(1.0);
+            agree(&what, run.final_state().q[0], edge, within);
+            certified(&what, &run);
+        }
+    }
+}
+
 /// A bead inside a hoop whose rim gives way beyond its radius: pressed against it, the bead stays where the branch of `max` changes. A force
 /// across drives steps that do not end where it is at rest.
 #[derive(Lagrangian, Clone, Debug)]
