@@ -75,7 +75,9 @@ impl Equations {
         let shared = if at.shared { OF_SHARES } else { 0.0 };
         for (i, coordinate) in self.d.coordinates.iter().enumerate() {
             let size = self.size[i];
-            let error = (self.residual[i].abs() - shared * size).max(0.0);
+            let beyond = self.residual[i].abs() - shared * size;
+            // What is no number is an error.
+            let error = if beyond <= 0.0 { 0.0 } else { beyond };
             findings.book(Subject::Equations, error, size, at.time, coordinate.name);
         }
     }

@@ -347,7 +347,9 @@ impl Watches {
                 reach = change(&self.changes, &self.sizes, [at.q, at.v]);
             }
             let reach = if reach > 0.0 { reach } else { 1.0 };
-            findings.book(subject, (error - rounding).max(0.0), reach, at.time, name);
+            let beyond = error - rounding;
+            let error = if beyond <= 0.0 { 0.0 } else { beyond };
+            findings.book(subject, error, reach, at.time, name);
         }
     }
 }

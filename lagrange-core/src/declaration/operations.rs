@@ -145,6 +145,27 @@ impl Operations {
         self.list.iter().filter(grows).map(|o| o.value)
     }
 
+    /// The arguments of the logarithms.
+    pub(crate) fn logarithms(&self) -> impl Iterator<Item = usize> {
+        self.arguments_of(&[LN])
+    }
+
+    /// The arguments of `atan`.
+    pub(crate) fn arctangents(&self) -> impl Iterator<Item = usize> {
+        self.arguments_of(&[ATAN])
+    }
+
+    /// The arguments of `asin` and `acos`, which have a corner where these are ±1.
+    pub(crate) fn arcs(&self) -> impl Iterator<Item = usize> {
+        self.arguments_of(&[ASIN, ACOS])
+    }
+
+    fn arguments_of(&self, functions: &'static [u32]) -> impl Iterator<Item = usize> {
+        let calls = self.list.iter();
+        let calls = calls.filter(|o| o.function().is_some_and(|f| functions.contains(&f)));
+        calls.map(|o| o.x)
+    }
+
     /// The angles that jump, and by how much: those of `atan2` by 2π at a cut, and those of `atan` by π where their argument has a pole.
     pub(crate) fn angles(&self) -> impl Iterator<Item = (usize, f64)> {
         self.list.iter().filter_map(|o| match o.code {
@@ -168,7 +189,7 @@ impl Operations {
 
     /// Whether there are logarithms: below zero they have derivatives, and no values.
     pub(crate) fn has_logarithms(&self) -> bool {
-        self.list.iter().any(|o| o.function() == Some(LN))
+        self.logarithms().next().is_some()
     }
 
     /// Why an operation has no value for this operand, in words; nothing where one is beyond all numbers.
@@ -186,13 +207,6 @@ impl Operations {
                 _ => None,
             },
         }
-    }
-
-    /// The arguments of `asin` and `acos`, which have a corner where these are ±1.
-    pub(crate) fn arcs(&self) -> impl Iterator<Item = usize> {
-        let arcs = self.list.iter();
-        let arcs = arcs.filter(|o| matches!(o.function(), Some(ASIN | ACOS)));
-        arcs.map(|o| o.x)
     }
 
     /// The bases of the roots, with an exponent of a half and whole numbers, and whether velocities or the time are in them: those a motion often takes

@@ -207,7 +207,7 @@ impl<T: Scalar> Compiled<T> {
             return Outcome::NotGiven;
         };
         let held = self.selection(&self.motion_needs);
-        Outcome::of(emitted.accelerations(&held, state, out, turns), out)
+        Outcome::of(emitted.accelerations(&held, state, out, turns), [out, &[]])
     }
 
     /// The same with the forces of all rows, and what is held if guards read it.
@@ -239,7 +239,7 @@ impl<T: Scalar> Compiled<T> {
         };
         let safe = emitted.value(&held, state, accelerations, turns);
         forces.copy_from_slice(emitted.forces(d));
-        Outcome::of(safe, accelerations)
+        Outcome::of(safe, [accelerations, forces])
     }
 
     /// What functions are told for these needs.
@@ -370,7 +370,7 @@ impl<T> Loaded<T> {
 /// What an evaluation by the functions of a mode has come to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Outcome {
-    /// Finite accelerations.
+    /// Finite accelerations and forces.
     Given,
     /// Nothing: there are no functions, or none that hold at this state.
     NotGiven,
@@ -380,10 +380,10 @@ pub(super) enum Outcome {
 
 impl Outcome {
     #[inline]
-    fn of<T: Scalar>(safe: bool, accelerations: &[T]) -> Self {
+    fn of<T: Scalar>(safe: bool, found: [&[T]; 2]) -> Self {
         match safe {
             false => Self::Unsafe,
-            true if is_finite(accelerations) => Self::Given,
+            true if found.into_iter().all(is_finite) => Self::Given,
             true => Self::NotGiven,
         }
     }

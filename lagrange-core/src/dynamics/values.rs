@@ -1,7 +1,6 @@
 //! Accelerations and forces at one state.
 
 use super::compiled::{Compiled, Outcome};
-use super::emitted::is_finite;
 use super::interpreted::Interpreted;
 use super::shape::{Extent, FORCES, MOTION, Part, REPORT, SYSTEM};
 use super::{AT_REST, Dynamics, Equations, EvaluationError};
@@ -92,16 +91,18 @@ impl<T: Scalar> Dynamics<T> {
         let results = self.registers().get(2 + 2 * n..).unwrap_or_default();
         let (found, rest) = results.split_at(n);
         accelerations.copy_from_slice(found);
-        if let Some(forces) = forces {
-            forces.copy_from_slice(&rest[..forces.len()]);
+        let bad = |numbers: &[T]| numbers.iter().position(|x| !x.value().is_finite());
+        if let Some(coordinate) = bad(accelerations) {
+            return Err(EvaluationError::NotFiniteAcceleration { coordinate });
         }
-        if is_finite(accelerations) {
+        let Some(forces) = forces else {
             return Ok(());
+        };
+        forces.copy_from_slice(&rest[..forces.len()]);
+        match bad(forces) {
+            Some(row) => Err(EvaluationError::NotFiniteForce { row }),
+            None => Ok(()),
         }
-        let bad = accelerations.iter().position(|x| !x.value().is_finite());
-        Err(EvaluationError::NotFiniteAcceleration {
-            coordinate: bad.unwrap_or(0),
-        })
     }
 
     /// Motion and forces at (t, q, v), into the registers. `refined`: what rounding leaves in the forces step after step is

@@ -6,7 +6,8 @@
 //! matters is seen by the next one. (In tanh and in 1/cosh it is the size of the argument that must not fall.)
 //!
 //! So with a power, whose exponent is n ln|x|: atoms that fly at one another from afar feel nothing of (s/r)¹² until they touch, and a step over
-//! r = 0 sees nothing of it at all; and sin⁴⁰t is nothing where it begins.
+//! r = 0 sees nothing of it at all; and sin⁴⁰t is nothing where it begins. What has come near to a right angle, atan u of a large u, hides a hill as u⁻¹ does, and powers of
+//! it: steps end before u comes down to 1. A logarithm is taken for the power of its argument that is not followed any more.
 //!
 //! An angle `atan2` that passes its cut jumps by 2π, and `atan` by π at a pole of its argument, which their series do not know. Where it has come back at the end of a step nothing there
 //! tells of it: the step ends beyond the cut instead, where accelerations show that they have jumped.
@@ -35,6 +36,9 @@ const FAR: f64 = 0.5;
 
 /// Lower powers grow by no more than a series of a loose tolerance follows.
 const HIGH: f64 = 8.0;
+
+/// Where the argument of `atan` is larger than this its series shows nothing of what it is nearer to zero.
+const FLAT: f64 = 2.0;
 
 /// The argument of `asin` or `acos` that changes by more than this in a piece may come to ±1 in it, and back.
 const SWING: f64 = 1.0;
@@ -70,6 +74,8 @@ struct Argument {
 enum Function {
     /// exp, sinh, cosh or tanh, and by how much the exponent changes with the argument.
     Exponential(f64),
+    /// atan.
+    Arctangent,
     /// A power, with a negative exponent for what is divided by.
     Power {
         exponent: f64,
@@ -135,7 +141,13 @@ impl Hidden {
             let largest = 0.0;
             (base, Function::Power { exponent, largest })
         });
-        let mut arguments: Vec<(usize, Function)> = exponentials.chain(powers).collect();
+        let logarithms = acting.logarithms().map(|argument| {
+            let (exponent, largest) = (-HIGH, 0.0);
+            (argument, Function::Power { exponent, largest })
+        });
+        let arctangents = acting.arctangents().map(|x| (x, Function::Arctangent));
+        let functions = exponentials.chain(powers).chain(logarithms);
+        let mut arguments: Vec<(usize, Function)> = functions.chain(arctangents).collect();
         let mut angles: Vec<(usize, f64)> = acting.angles().collect();
         let arcs = acting.arcs().map(|base| (base, Kind::Arc));
         let roots = acting.roots().map(|(base, of_rates)| match of_rates {
@@ -333,6 +345,10 @@ impl Argument {
                 // The function is small where the argument is large, in exp(−x) as in 1/cosh(x).
                 let highest = f64::max(-*factor * size, NEGLIGIBLE) + rise;
                 (highest < 0.0).then_some(Border::Least(-highest / *factor))
+            }
+            Function::Arctangent => {
+                let least = f64::max(size * (-rise / HIGH).exp(), 1.0);
+                (size > FLAT).then_some(Border::Least(least))
             }
             Function::Power { exponent, largest } => {
                 *largest = largest.max(size);

@@ -5,6 +5,7 @@ use super::stepping::CAREFUL;
 use super::taylor_step::ASTRAY;
 use super::{Progress, Run};
 use crate::arithmetic::Scalar;
+use crate::dynamics::EvaluationError;
 use crate::error::Error;
 use crate::integrate::Integrator;
 use crate::trajectory::State;
@@ -101,8 +102,17 @@ impl<T: Scalar> Run<T> {
                 h = shorter;
                 continue;
             }
-            self.sample()?;
-            let defect = self.interpolation_defect().map_err(|e| self.error(e))?;
+            let sampled = self.sample().and_then(|()| self.interpolation_defect());
+            let defect = match sampled {
+                Ok(defect) => defect,
+                // Something has no value beyond a place that the step passes.
+                Err(_) if self.stepper.step.h.value() > shortest => {
+                    h = NO_ROOT * self.stepper.step.h.value();
+                    self.recorder.trajectory.work.rejected += 1;
+                    continue;
+                }
+                Err(error) => return Err(self.error(error)),
+            };
             h = self.stretch(defect) * self.stepper.step.h.value();
             self.stepper.wanted = Some(next.min(h));
             if defect <= 1.0 {
@@ -159,11 +169,10 @@ impl<T: Scalar> Run<T> {
     }
 
     /// Samples the guards along the step.
-    pub(super) fn sample(&mut self) -> Result<(), Error> {
+    pub(super) fn sample(&mut self) -> Result<(), EvaluationError> {
         let State { q, v, .. } = &mut self.stepper.scratch;
         let (curves, dynamics) = (&mut self.locator.polynomials, &mut self.dynamics);
-        let sampled = curves.sample(dynamics, &self.now.mode, &self.stepper.step, q, v);
-        sampled.map_err(|e| self.error(e))
+        curves.sample(dynamics, &self.now.mode, &self.stepper.step, q, v)
     }
 
     /// What happens first in a step whose guards were sampled; nothing where it is a guard that does not vanish there: its interpolation
@@ -178,10 +187,13 @@ impl<T: Scalar> Run<T> {
                 return self.taylor_step().map(Some);
             }
             if self.passes_over_touches(&hit, 1.0) {
-                self.sample()?;
+                self.sample().map_err(|e| self.error(e))?;
                 continue;
             }
-            self.evaluate_end(hit.end()).map_err(|e| self.error(e))?;
+            // Where something has no value at the end the step has passed that place.
+            if self.evaluate_end(hit.end()).is_err() {
+                return Ok(None);
+            }
             if self.misses_a_mark(hit.end()) || self.misses_its_root(&hit) {
                 return Ok(None);
             }
@@ -213,7 +225,7 @@ impl<T: Scalar> Run<T> {
                 }
                 self.integrate(h)?;
             }
-            self.sample()?;
+            self.sample().map_err(|e| self.error(e))?;
         }
     }
 }

@@ -225,6 +225,23 @@ impl Pool {
         }
     }
 
+    /// Whether its form shows that it is never negative, as a distance is.
+    pub fn is_never_negative(&self, e: ExprId) -> bool {
+        match self.node(e) {
+            Node::Sum { constant, terms } => {
+                let mut terms = terms.iter();
+                !constant.is_negative()
+                    && terms.all(|&(term, c)| !c.is_negative() && self.is_never_negative(term))
+            }
+            Node::Product(factors) => factors.iter().all(|&(base, exponent)| {
+                let even = exponent.to_integer().map(|n| n % 2 == 0);
+                even.unwrap_or(true) || self.is_never_negative(base)
+            }),
+            Node::Group(inner) => self.is_never_negative(*inner),
+            _ => self.is_positive(e),
+        }
+    }
+
     /// exp a · exp b = exp(a + b)
     fn merge_exponentials(&mut self, all: &mut Factors) {
         if all.exponentials.is_empty() {

@@ -116,13 +116,27 @@ pub(super) fn around(trajectory: &Trajectory) -> Vec<[Option<Sample>; 2]> {
         };
         let (before, after) = (reader.before(first), reader.after(last));
         around.extend(group.iter().map(|event| {
-            let begins = (&event.state, &event.before) == (&first.state, &first.before);
-            let ends = (&event.state_after, &event.after) == (&last.state_after, &last.after);
+            let begins = event.before == first.before && are_alike(&event.state, &first.state);
+            let ends =
+                event.after == last.after && are_alike(&event.state_after, &last.state_after);
             let before = before.as_ref().filter(|_| begins);
             [before, after.as_ref().filter(|_| ends)].map(Option::<&Sample>::cloned)
         }));
     }
     around
+}
+
+/// Whether two states are the same but for what rounding makes of them where constraints are kept.
+fn are_alike(one: &State<f64>, other: &State<f64>) -> bool {
+    const ALIKE: f64 = 1e-12;
+    let alike = |(one, other): (&[f64], &[f64])| {
+        let size = one.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
+        let mut pairs = one.iter().zip(other);
+        pairs.all(|(x, y)| (x - y).abs() <= ALIKE * size)
+    };
+    [(&*one.q, &*other.q), (&*one.v, &*other.v)]
+        .into_iter()
+        .all(alike)
 }
 
 /// Reads samples from a trajectory.

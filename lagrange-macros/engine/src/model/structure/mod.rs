@@ -1,5 +1,6 @@
 //! What constraints say together: which follow from others or contradict them, which velocity constraints are
-//! constraints on positions, and which coordinates were put into the energies too early; and which dissipations damp nothing.
+//! constraints on positions, which coordinates were put into the energies too early, which dissipations damp nothing,
+//! and which gaps cannot close.
 //!
 //! Derivatives are exact; ranks are taken in floating point at a few arbitrary states, which need not be on the
 //! constraints: what holds there holds identically.
@@ -8,6 +9,7 @@ mod absorbed;
 mod dependent;
 mod feeding;
 mod integrable;
+mod one_sided;
 
 use super::elaboration::Elaboration;
 use super::{Constraint, Level};
@@ -41,6 +43,7 @@ impl Elaboration<'_> {
         self.integrable(declaration, &rows);
         self.absorbed();
         self.feeding();
+        self.one_sided();
     }
 
     /// The rows of all constraints.

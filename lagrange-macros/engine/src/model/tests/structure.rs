@@ -169,6 +169,36 @@ fn integrable_velocity_constraints_are_remarked() {
 }
 
 #[test]
+fn gaps_that_are_never_negative_are_remarked() {
+    let remarks = |gap: &str| {
+        let text = format!(
+            "#[lagrange(coordinates(a, b, x, y), kinetic = m/2*(der(a)^2 + der(b)^2 + der(x)^2 + der(y)^2), contact(hit: {gap}))]
+             struct S {{ m: f64, r: f64 }}"
+        );
+        read(&text).unwrap().hints.len()
+    };
+    for gap in [
+        "sqrt((b - a)^2) >= 0",
+        "(b - a)^2 >= 0",
+        "norm((x, y) - (a, b)) >= 0",
+        "(x - a)^2 + 2*sqrt(y) + 1 >= 0",
+    ] {
+        assert_eq!(remarks(gap), 1, "{gap}");
+    }
+    for gap in [
+        "b >= a",
+        "abs(b - a) >= 0",
+        "norm((x, y)) >= r",
+        "r >= norm((x, y))",
+        "sqrt(x^2 + y^2) >= 1",
+        "x * y^2 >= 0",
+        "(b - a)^3 >= 0",
+    ] {
+        assert_eq!(remarks(gap), 0, "{gap}");
+    }
+}
+
+#[test]
 fn coordinates_put_in_too_early_are_remarked() {
     let early = "#[lagrange(coordinates(r, theta),
         kinetic = m/2*radius^2*der(theta)^2, potential = m*g*radius*cos(theta), constraint(shell: r == radius))]
