@@ -507,6 +507,11 @@ impl<T: Scalar> Decider<T> {
         self.sizes.of_forces()
     }
 
+    /// The momentum of all coordinates with these speeds.
+    pub fn momentum(&self, speeds: impl Iterator<Item = f64>) -> f64 {
+        self.sizes.momentum(speeds)
+    }
+
     /// The size of accelerations where forces do not cancel, the largest of all coordinates; `dynamics` holds the numbers of all rows at the present state.
     pub fn size_of_accelerations(&mut self, dynamics: &Dynamics<T>) -> f64 {
         self.take_sizes(dynamics);

@@ -12,6 +12,10 @@ use crate::run::touching::UNITS_OF_TIME;
 /// A guard on the other side of zero than its polynomial is off by more than rounding explains: this much more is counted.
 const OTHER_SIDE: f64 = 1e3;
 
+/// What presses a friction may be off by what changes velocities in the step by this share of what they may be off by: where nothing presses it, as the rounding of
+/// 1 − tanh², it has no other size.
+const IDLE: f64 = 1e-3;
+
 /// A guard that changes by no more than this share of its value hardly changes.
 const STEADY: f64 = 1e-2;
 
@@ -177,7 +181,8 @@ impl GuardPolynomials {
                     rounding: self
                         .rounding(error, guard, dynamics)
                         .max(rounding)
-                        .max(self.change_in_no_time(guard, c, value, dynamics)),
+                        .max(self.change_in_no_time(guard, c, value, dynamics))
+                        .max(self.idle_force(guard, tolerance)),
                     other_side: !located && (found < 0.0) != (value < 0.0),
                 }
             })
@@ -197,6 +202,15 @@ impl GuardPolynomials {
             let found = if s == 1.0 { curve.sums.end } else { at(c, s) };
             (curve.guard, c, [found, self.value(index, mode, dynamics)])
         })
+    }
+
+    /// By how much what presses a friction may be off and yet not be felt.
+    #[inline]
+    fn idle_force(&self, guard: Guard, tolerance: f64) -> f64 {
+        match guard {
+            Guard::NormalForceSign(_) => IDLE * tolerance * self.momentum / self.length,
+            _ => 0.0,
+        }
     }
 
     /// What a stop or mark with this curve and value changes by within the time that rounding resolves, as long as it keeps its sign: close to a pole, 1/x,

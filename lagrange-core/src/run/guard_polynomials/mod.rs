@@ -61,6 +61,8 @@ pub(super) struct GuardPolynomials {
     pub(super) extents: Vec<f64>,
     /// What the forces of the mode were made of as it began.
     pub(super) forces: f64,
+    /// The momentum of the motion as the mode began.
+    pub(super) momentum: f64,
     /// The stops and marks that take part.
     pub(super) stops: Vec<usize>,
     pub(super) marks: Vec<usize>,
