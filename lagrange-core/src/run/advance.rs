@@ -17,8 +17,11 @@ const NEAR: f64 = 0.7;
 /// Each so many steps it is seen how many have been tried in vain, and how far they have come:
 const STEPS_OF_TRIES: usize = 1000;
 
-/// where tries are more than so many a step, rounding or a jump says how long steps are, and there is no end to them;
+/// where tries are more than so many a step, rounding or a jump says how long steps are,
 const MOST_TRIES: usize = 10;
+
+/// and there is no end to them if what is left of the run is more than so many times as long;
+const NO_END: f64 = 1e3;
 
 /// and neither where all of them together are no more than this beside the time.
 const NO_PROGRESS: f64 = 1e-10;
@@ -88,8 +91,10 @@ impl<T: Scalar> Run<T> {
         }
         let now = self.now.t.value();
         let (rejected, before) = core::mem::replace(&mut self.stepper.looked, (work.rejected, now));
-        let vain = work.rejected.saturating_sub(rejected) > MOST_TRIES * STEPS_OF_TRIES;
-        let stands = work.steps > 0 && now - before <= NO_PROGRESS * now.abs();
+        let (made, left) = (now - before, self.end - now);
+        let tries = work.rejected.saturating_sub(rejected);
+        let vain = tries > MOST_TRIES * STEPS_OF_TRIES && left > NO_END * made;
+        let stands = work.steps > 0 && made <= NO_PROGRESS * now.abs();
         // Breaks of guards have a number of their own.
         match (vain || stands) && self.stepper.breaks == 0 {
             true => Err(self.step_too_small(self.stepper.step.h.value())),
