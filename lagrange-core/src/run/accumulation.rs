@@ -96,8 +96,7 @@ impl<T: Scalar> Impacts<T> {
             1
         };
         (self.last, self.interval, self.ratio) = (time, interval, ratio);
-        // Under a constant force.
-        self.height = 0.25 * rate.abs() * interval;
+        self.height = height_of_flight(rate, interval);
         self.intervals[self.count % REMEMBERED] = interval;
         self.unresolved = if interval <= rounding::<T>(RESOLUTION) * time.abs() {
             self.unresolved + 1
@@ -155,6 +154,11 @@ impl<T: Scalar> Impacts<T> {
     }
 }
 
+/// How high a flight rises under a constant force that ends after this interval at this rate.
+fn height_of_flight(rate: f64, interval: f64) -> f64 {
+    0.25 * rate.abs() * interval
+}
+
 /// Impacts in which a train must have become shorter.
 const WINDOW: usize = 64;
 /// What its second half may last at most, relative to the first.
@@ -208,6 +212,13 @@ impl Train {
         }
     }
 
+    /// When a contact was hit last as one of it.
+    fn last(&self, contact: usize) -> Option<f64> {
+        let remembered = self.count.saturating_sub(WINDOW)..self.count;
+        let mut hits = remembered.rev().map(|k| self.hits[k % WINDOW]);
+        hits.find_map(|(time, other)| (other == contact).then_some(time))
+    }
+
     /// Whether there are enough impacts, of several contacts, to judge it.
     fn is_long(&self) -> bool {
         self.count >= WINDOW && self.hits.iter().any(|(_, c)| *c != self.hits[0].1)
@@ -249,7 +260,7 @@ impl<T: Scalar> Run<T> {
             if !(outcome.struck[c] && facts.arriving[c]) {
                 continue;
             }
-            if self.switcher.impacts[c].count == 0 {
+            if self.switcher.impacts[c].count == 0 && !self.has_hopped(c) {
                 self.switcher.train.forget(c);
             }
             self.switcher.train.book(self.now.t.value(), c);
@@ -260,6 +271,15 @@ impl<T: Scalar> Run<T> {
             }
         }
         Ok(ends)
+    }
+
+    /// Whether contact `c` has opened, since it was hit last as one of the train, no wider than rounding makes of its gap: that it has come to rest in between
+    /// means nothing.
+    fn has_hopped(&self, c: usize) -> bool {
+        let (rate, _) = self.rate(self.description().contacts[c].row);
+        let last = self.switcher.train.last(c);
+        let height = |last: f64| height_of_flight(rate, self.now.t.value() - last);
+        last.is_some_and(|last| height(last) <= self.rounding_of_gap(c))
     }
 
     /// After an impact of contact `c`: closes it if the impacts to come are below the tolerance. Returns the number of
@@ -464,6 +484,11 @@ impl<T: Scalar> Run<T> {
     /// Contact `c` bounces no more.
     pub(super) fn end(&mut self, c: usize, facts: &mut SwitchFacts) {
         (facts.touching[c], facts.parting[c]) = (true, false);
-        self.switcher.impacts[c] = Impacts::default();
+        // How high it flew last tells of a train that it is one of.
+        let height = self.switcher.impacts[c].height;
+        self.switcher.impacts[c] = Impacts {
+            height,
+            ..Impacts::default()
+        };
     }
 }

@@ -73,15 +73,21 @@ impl<T: Scalar> Run<T> {
     /// The part of the step at hand at which the motion comes to the edge of contact `c`, or to its surface near the edge, where another surface is near.
     fn comes_to_edge(&self, c: usize) -> Option<f64> {
         let curves = &self.locator.polynomials;
-        let edge = curves.of(Guard::Region(c))?;
-        let is_there = |s: f64| value(edge, s).abs() <= self.nearby(c) && self.is_near_others(c, s);
-        let comes = |curve: &[f64]| {
-            find_root(curve, |root| match is_there(root.s) {
-                true => Break(root.s),
-                false => Continue(()),
+        let [region, surface] = [Guard::Region(c), Guard::Gap(c)];
+        let edge = curves.of(region)?;
+        let is_there = |s: f64| {
+            self.known_at(region, edge, s).abs() <= self.nearby(c) && self.is_near_others(c, s)
+        };
+        let comes = |guard: Guard, curve: &[f64]| {
+            find_root(curve, |root| {
+                let (s, _) = self.place(guard, &root);
+                match is_there(s) {
+                    true => Break(s),
+                    false => Continue(()),
+                }
             })
         };
-        comes(edge).or_else(|| comes(curves.of(Guard::Gap(c))?))
+        comes(region, edge).or_else(|| comes(surface, curves.of(surface)?))
     }
 
     /// Whether the motion is near the surface of another contact than `c` at a part of the step at hand.
@@ -91,8 +97,9 @@ impl<T: Scalar> Run<T> {
 
     /// Whether the motion is near the surface of a contact at a part of the step at hand.
     fn is_near(&self, c: usize, s: f64) -> bool {
-        let gap = self.locator.polynomials.of(Guard::Gap(c));
-        self.now.mode.contacts[c] || gap.is_some_and(|gap| value(gap, s).abs() <= self.nearby(c))
+        let surface = Guard::Gap(c);
+        let is_near = |gap: &[f64]| self.known_at(surface, gap, s).abs() <= self.nearby(c);
+        self.now.mode.contacts[c] || self.locator.polynomials.of(surface).is_some_and(is_near)
     }
 
     /// The contact, if there is one, whose surface keeps the motion off that of contact `c` beyond the edge at which it is, at the present state or at a

@@ -5,6 +5,7 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::EvaluationError;
 use crate::error::{Error, NotFinite};
 use crate::integrate::StepError;
+use crate::modes::guard::Guard;
 
 impl<T: Scalar> Run<T> {
     /// Why the equations could not be evaluated at the present instant.
@@ -62,6 +63,20 @@ impl<T: Scalar> Run<T> {
             item: None,
             cause: NotFinite::Domain,
         }
+    }
+
+    /// Something of a guard has no finite value here.
+    pub(super) fn no_value_of(&self, what: &str, guard: Guard) -> Error {
+        let d = self.description();
+        let item = guard.name(d).unwrap_or(d.name);
+        let limited = matches!(guard, Guard::Gap(c) if d.contacts[c].region.is_some());
+        let beyond = match limited {
+            true => {
+                " (a gap needs a value outside of its region as well, as `if(x <= 1, …, 0)` gives it)"
+            }
+            false => "",
+        };
+        self.not_finite(&format!("{what} of `{item}`{beyond}"))
     }
 
     /// More happened than a run may have of it.

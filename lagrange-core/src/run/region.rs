@@ -69,7 +69,8 @@ impl<T: Scalar> Run<T> {
             return true;
         }
         // Just after the edge has been located, its first coefficient is zero.
-        let is_in = |curve| self.known_at(edge, curve, s) >= 0.0;
+        // Of an edge that is rounding over the whole step roots tell nothing.
+        let is_in = |curve| value(curve, s) >= 0.0 || self.known_at(edge, curve, s) >= 0.0;
         !self.leaves(c, curve, s) && self.judged(edge, curve).is_none_or(is_in)
     }
 
@@ -81,7 +82,7 @@ impl<T: Scalar> Run<T> {
     }
 
     /// The value of a guard of this curve at part `s` of the step on the dense output.
-    fn known_at(&self, guard: Guard, curve: &[f64], s: f64) -> f64 {
+    pub(super) fn known_at(&self, guard: Guard, curve: &[f64], s: f64) -> f64 {
         value(curve, self.interpolated(guard, s))
     }
 

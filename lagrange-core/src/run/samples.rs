@@ -279,11 +279,11 @@ impl<T: Scalar> Run<T> {
     }
 
     /// The part of the step at which a guard's polynomial is what the guard is at part `s` on the dense output: roots are where they
-    /// have been found.
+    /// have been found, if one is near.
     pub(super) fn interpolated(&self, guard: Guard, s: f64) -> f64 {
         let roots = self.locator.polynomials.roots.iter();
         let distance = |known: &&SharpRoot| (known.exact - s).abs();
-        let of_guard = roots.filter(|known| known.guard == guard);
+        let of_guard = roots.filter(|known| known.guard == guard && distance(known) <= SAME);
         let nearest = of_guard.min_by(|a, b| distance(a).total_cmp(&distance(b)));
         let moved = nearest.map_or(0.0, |known| known.interpolated - known.exact);
         (s + moved).clamp(0.0, 1.0)

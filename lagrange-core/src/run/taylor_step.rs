@@ -312,7 +312,7 @@ impl<T: Scalar> Run<T> {
             let d = self.description();
             let item = guard.name(d).unwrap_or(d.name);
             return Err(if !after.is_finite() {
-                self.not_finite(&format!("the guard of `{item}`"))
+                self.no_value_of("the guard", guard)
             } else {
                 Error::Discontinuous {
                     time: self.now.t.value(),
@@ -343,11 +343,7 @@ impl<T: Scalar> Run<T> {
     /// What is wrong with guards that bound step after step.
     fn breaks_on(&self) -> Error {
         match self.locator.polynomials.without_series() {
-            Some(guard) => {
-                let d = self.description();
-                let item = guard.name(d).unwrap_or(d.name);
-                self.not_finite(&format!("a Taylor coefficient of the guard of `{item}`"))
-            }
+            Some(guard) => self.no_value_of("a Taylor coefficient of the guard", guard),
             None => self.step_too_small(self.resolution(0.0)),
         }
     }

@@ -1122,6 +1122,75 @@ fn a_relay_that_has_no_mode_is_told_no_causes_of_contacts() {
     }
 }
 
+/// A piece of chalk that is pushed over a rough board, tip first, and a sponge that lies on a bench.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(u, w, x, y, lean),
+    kinetic = (der(u)^2 + der(w)^2 + der(x)^2 + der(y)^2 + der(lean)^2/12)/2,
+    potential = 9.81*(w + y),
+    contact(bench: w >= 0),
+    friction(hold on bench: slip = der(u), static = 0.5),
+    contact(board: y >= sin(lean)/2),
+    friction(scratch on board: slip = der(x) + sin(lean)/2 * der(lean), static = mu),
+    start(pushed: y = sin(1)/2, lean = 1, der(x) = -1, der(u) = slides),
+)]
+struct Chalk {
+    mu: f64,
+    slides: f64,
+}
+
+/// That Painlevé's chalk has no mode is not the fault of what lies or slides beside it.
+#[test]
+fn what_has_no_mode_is_named_and_not_what_is_elsewhere() {
+    for slides in [0.0, 0.5] {
+        let chalk = Chalk { mu: 2.0, slides };
+        let failure = Simulation::new(&chalk)
+            .run(chalk.at(Chalk::PUSHED), 0.0..0.1)
+            .expect_err("no mode");
+        let Error::NoMode { item, .. } = failure.error else {
+            panic!("{failure}")
+        };
+        assert!(["board", "scratch"].contains(&item), "{slides}: {item}");
+    }
+}
+
+/// A body that is driven along a rail, with a load that exists up to a place only.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2)/2,
+    force(load: x = if(form <= 0, sqrt(reach - x), ln(reach - x))),
+    constraint(drive: der(x) == speed),
+    start(driven: der(x) = speed),
+)]
+struct Driven {
+    reach: f64,
+    speed: f64,
+    form: f64,
+}
+
+/// No motion feels that it is missed, but the force of the drive does.
+#[test]
+fn a_force_of_a_constraint_that_is_no_number_ends_the_run() {
+    for form in [0.0, 1.0] {
+        let scene = Driven {
+            reach: 0.87,
+            speed: 1.5,
+            form,
+        };
+        for method in METHODS {
+            let failure = Simulation::new(&scene)
+                .method(method)
+                .run(scene.at(Driven::DRIVEN), 0.0..1.5)
+                .expect_err("no force");
+            let ends = failure.trajectory.last_time();
+            let place = scene.reach / scene.speed;
+            let what = format!("{form} by {method}: {ends} of {place}, {failure}");
+            assert!(ends <= place + 1e-12 && ends > 0.3 * place, "{what}");
+        }
+    }
+}
+
 /// A hoop that carries a heavy point, and that a constraint keeps from slipping while it touches the ground.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(

@@ -112,13 +112,15 @@ fn words(
     found: &Found,
     ratios: &[f64],
 ) -> String {
-    let mut text = String::from("at ");
-    for (i, symbol) in printed(pool, region, sides).into_iter().enumerate() {
+    let values = printed(pool, region, sides).into_iter().map(|symbol| {
         let value = found.state.numbers.symbol(symbol).value;
-        let comma = if i == 0 { "" } else { ", " };
-        text += &format!("{comma}{} = {}", pool.name(symbol), short(value));
-    }
-    text += ":";
+        format!("{} = {}", pool.name(symbol), short(value))
+    });
+    let values = values.collect::<Vec<_>>().join(", ");
+    let mut text = match values.is_empty() {
+        true => "everywhere".to_owned(),
+        false => format!("at {values}:"),
+    };
     let (left, right) = (found.left.value, found.right.value);
     let [left_text, right_text] = distinct(left, right);
     if conserved {

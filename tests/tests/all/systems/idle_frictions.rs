@@ -207,3 +207,41 @@ fn a_pad_that_has_faded_slips_with_the_others() {
         }
     }
 }
+
+/// A bead on a rail that is moved aside smoothly, once. Before and after that nothing presses it but the rounding of tanh.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = mass/2*(der(x)^2 + der(y)^2),
+    constraint(rail: x == aside * tanh((t - middle)/lasts)),
+    friction(rub on rail: slip = der(y), static = mu),
+    start(go: x = -aside * tanh(middle/lasts), der(y) = 3),
+)]
+struct MovedRail {
+    mass: f64,
+    aside: f64,
+    middle: f64,
+    lasts: f64,
+    mu: f64,
+}
+
+/// It is slowed by μ times what the velocity of the rail rises and falls by: 2 μ a/w.
+#[test]
+fn a_rail_that_does_not_press_rubs_as_it_is_moved() {
+    for (lasts, middle) in [(0.2, 5.0), (0.1, 5.0), (0.03, 4.321), (0.004, 3.0)] {
+        let scene = MovedRail {
+            mass: 1.3,
+            aside: 7.0 * lasts,
+            middle,
+            lasts,
+            mu: 0.1,
+        };
+        for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-9]) {
+            let start = scene.at(MovedRail::GO);
+            let run = run_by(&scene, (method, tolerance), start, 10.0);
+            let what = format!("{scene:?} by {method} at {tolerance:e}");
+            agree(&what, run.final_state().v[1], 1.6, 100.0 * tolerance);
+            certified(&what, &run);
+        }
+    }
+}

@@ -3,7 +3,7 @@
 use super::state;
 use lagrange_core::prelude::*;
 use lagrange_tests::{
-    METHODS, TOLERANCES, agree, certified, event, methods_at, root, run_by, times,
+    METHODS, TOLERANCES, agree, all_agree, certified, event, methods_at, root, run_by, times,
 };
 
 /// A block dropped onto a rough incline, which lifts or not while the block bounces.
@@ -689,6 +689,87 @@ fn a_ball_that_is_kicked_up_again_comes_to_rest_again() {
             agree(&what, rests[0], first, 10.0 * tolerance);
             agree(&what, rests[1], second, 10.0 * tolerance);
             certified(&what, &motion);
+        }
+    }
+}
+
+/// A ball that a belt carries against a rounded kerb, over which the belt runs on. It bounces to rest on the one and on the other in turn, ever sooner.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    emit = data,
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = gravity * y,
+    define(distance = sqrt(x^2 + (y - high)^2)),
+    contact(belt: y >= radius, where x <= 0, restitution = throws),
+    contact(kerb: distance >= radius, where x <= 0, restitution = throws),
+    friction(carry on belt: slip = der(x) - 100, static = mu),
+    friction(rub on kerb: slip = (der(x)*(y - high) - der(y)*x)/distance - 100, static = mu),
+    start(carried: x = -radius - way, y = radius, der(x) = speed),
+)]
+struct Kerb {
+    gravity: f64,
+    radius: f64,
+    high: f64,
+    throws: f64,
+    mu: f64,
+    way: f64,
+    speed: f64,
+}
+
+/// It rests in the corner, at the time that 50 digits give for the first of them, however rounding orders the last bounces.
+#[test]
+fn bounces_on_two_surfaces_in_turn_come_to_an_end() {
+    let balls = [
+        (
+            [
+                0.2475929254183783,
+                0.11908240673427953,
+                0.18909761080693444,
+                0.41098654996442374,
+                0.06638221480995328,
+                0.7005762432864433,
+            ],
+            Some(0.713_657_793_938_890_9),
+        ),
+        (
+            [
+                0.23625297266664427,
+                0.1330107505728358,
+                0.07542308916550572,
+                0.40036791095025,
+                0.1735086697767938,
+                0.5916122712384924,
+            ],
+            None,
+        ),
+    ];
+    for ([radius, high, throws, mu, way, speed], known) in balls {
+        let scene = Kerb {
+            gravity: 9.81,
+            radius,
+            high,
+            throws,
+            mu,
+            way,
+            speed,
+        };
+        let corner = -(radius * radius - (radius - high).powi(2)).sqrt();
+        let methods = METHODS.into_iter().chain([Method::Gauss6 { step: 1e-3 }]);
+        for (method, tolerance) in methods.flat_map(|method| [1e-7, 1e-9].map(|t| (method, t))) {
+            let run = run_by(&scene, (method, tolerance), scene.at(Kerb::CARRIED), 1.0);
+            let what = format!("{scene:?} by {method} at {tolerance:e}");
+            assert!(run.events().len() < 1000, "{what}: {}", run.events().len());
+            let mode = run.final_mode();
+            assert!(mode.closed(Kerb::BELT) && mode.closed(Kerb::KERB), "{what}");
+            let rests = run.events().last().expect("events").time;
+            agree(&what, rests, known.unwrap_or(rests), 200.0 * tolerance);
+            all_agree(
+                &what,
+                &run.final_state().q,
+                &[corner, radius],
+                10.0 * tolerance,
+            );
         }
     }
 }

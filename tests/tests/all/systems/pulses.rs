@@ -454,3 +454,85 @@ fn what_is_screened_deflects_what_meets_it() {
         agree("deflected", end.q[1], ends[0].q[1], 1e-5);
     }
 }
+
+/// A ridge that falls off as a power of its distance and is written by `atan`, whose argument is large where nothing is seen of it.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = mass/2 * der(x)^2,
+    potential = height * (1 - 2/pi*atan((x - place)^2/width^2))^3,
+)]
+struct Ridge {
+    mass: f64,
+    height: f64,
+    place: f64,
+    width: f64,
+}
+
+/// With half of the energy that it takes to climb it a body comes back as it went, and with twice as much it goes on as it came.
+#[test]
+fn no_body_passes_a_ridge_of_angles_that_it_cannot_climb() {
+    for width in [0.3, 0.03, 1e-3] {
+        for (energy, turns) in [(0.5, -1.0), (2.0, 1.0)] {
+            let scene = Ridge {
+                mass: 1.4,
+                height: 0.7,
+                place: 4.7,
+                width,
+            };
+            let speed = f64::sqrt(2.0 * energy * scene.height / scene.mass);
+            for method in METHODS {
+                let run = moved(&scene, method, [0.0, speed], 9.4 / speed);
+                let v = run.final_state().v[0];
+                let what = format!("{method}, {width}, {energy}: v = {v}");
+                assert!((v - turns * speed).abs() < 1e-3 * width, "{what}");
+                certified(&what, &run);
+            }
+        }
+    }
+}
+
+/// A ball that is thrown over a tower, whose roof is told by two angles.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = gravity * y,
+    define(roof = height/pi * (atan((x - from)/edge) - atan((x - to)/edge))),
+    contact(tower: y >= roof - 0.5),
+    start(thrown: der(x) = 17.5, der(y) = 21.0),
+)]
+struct Tower {
+    gravity: f64,
+    height: f64,
+    from: f64,
+    to: f64,
+    edge: f64,
+}
+
+#[test]
+fn a_ball_hits_a_tower_however_steep_its_walls() {
+    for edge in [0.15, 0.06, 2e-3] {
+        let scene = Tower {
+            gravity: 9.81,
+            height: 32.0,
+            from: 36.0,
+            to: 37.0,
+            edge,
+        };
+        let gap = |t: f64| {
+            let (x, y) = (17.5 * t, 21.0 * t - 0.5 * scene.gravity * t * t);
+            let angle = |place: f64| ((x - place) / edge).atan();
+            y + 0.5 - scene.height / PI * (angle(scene.from) - angle(scene.to))
+        };
+        let hits = root(gap, 1.5, 36.5 / 17.5);
+        for (method, tolerance) in methods_at(METHODS, [1e-6, 1e-9]) {
+            let start = scene.at(Tower::THROWN);
+            let run = run_by(&scene, (method, tolerance), start, 2.2);
+            let what = format!("{method} at {tolerance:e}, {edge}");
+            let at = times(&run, "tower", "impact");
+            assert!(!at.is_empty(), "{what}");
+            agree(&what, at[0], hits, 10.0 * tolerance);
+        }
+    }
+}

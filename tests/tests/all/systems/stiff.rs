@@ -172,3 +172,37 @@ fn a_stiff_coupler_at_rest_under_a_shared_load_takes_long_steps() {
     let steps = [1e5, 1e6, 1e7].map(of);
     assert!(steps.iter().all(|steps| *steps < 1500), "{steps:?}");
 }
+
+/// Two masses with a stiff dashpot between them, one of which a belt shakes to and fro.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = 78.0/2 * x^2,
+    dissipation(dashpot: damping/2 * (der(x) - der(y))^2),
+    friction(belt: slip = der(x) - 0.27*cos(t), limit = (2.5, 1.5)),
+    start(aside: x = 1, y = 1),
+)]
+struct Shaken {
+    damping: f64,
+}
+
+/// Explicit steps are bounded by stability, and tried in vain; they come to the end all the same.
+#[test]
+fn explicit_steps_that_are_tried_in_vain_come_to_the_end() {
+    for damping in [1.5e4, 4e4] {
+        let scene = Shaken { damping };
+        let run = |method: Method| {
+            let simulation = Simulation::new(&scene).method(method);
+            let outcome = simulation.run(scene.at(Shaken::ASIDE), 0.0..1.1);
+            outcome.unwrap_or_else(|failure| panic!("{damping}: {failure}"))
+        };
+        let (expected, found) = (run(Method::Auto), run(Method::DormandPrince853));
+        for (found, expected) in found.events().iter().zip(expected.events()) {
+            assert_eq!(found.kind, expected.kind);
+            agree(damping, found.time, expected.time, 1e-8);
+        }
+        let ends = found.final_state().q.iter().zip(&expected.final_state().q);
+        ends.for_each(|(found, expected)| agree(damping, *found, *expected, 1e-8));
+    }
+}
