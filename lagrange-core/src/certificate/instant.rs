@@ -1,7 +1,7 @@
 //! One instant: the balance of forces, constraints, contacts and frictions as the mode demands.
 
 use super::equations::{Equations, Situation, Zero};
-use super::{Findings, MARGIN, Subject};
+use super::{Findings, MARGIN, Subject, beyond};
 use crate::effects::Item;
 use crate::error::Level;
 use crate::mode::{Direction, FrictionMode, Mode};
@@ -75,9 +75,7 @@ impl Equations {
         let shared = if at.shared { OF_SHARES } else { 0.0 };
         for (i, coordinate) in self.d.coordinates.iter().enumerate() {
             let size = self.size[i];
-            let beyond = self.residual[i].abs() - shared * size;
-            // What is no number is an error.
-            let error = if beyond <= 0.0 { 0.0 } else { beyond };
+            let error = beyond(self.residual[i].abs(), shared * size);
             findings.book(Subject::Equations, error, size, at.time, coordinate.name);
         }
     }

@@ -237,6 +237,14 @@ impl fmt::Display for Certificate {
     }
 }
 
+/// What is left of an error beyond what is explained; what is no number stays none.
+fn beyond(error: f64, explained: f64) -> f64 {
+    match error <= explained {
+        true => 0.0,
+        false => error - explained,
+    }
+}
+
 /// What has been found so far.
 #[derive(Debug)]
 struct Findings {

@@ -6,7 +6,7 @@
 
 use super::equations::{Situation, change};
 use super::sizes::rounding_of;
-use super::{Findings, Subject};
+use super::{Findings, Subject, beyond};
 use crate::arithmetic::Scalar;
 use crate::declaration::{Declaration, Evaluator, Inputs, Interval, Real};
 use crate::effects::Item;
@@ -347,9 +347,7 @@ impl Watches {
                 reach = change(&self.changes, &self.sizes, [at.q, at.v]);
             }
             let reach = if reach > 0.0 { reach } else { 1.0 };
-            let beyond = error - rounding;
-            let error = if beyond <= 0.0 { 0.0 } else { beyond };
-            findings.book(subject, error, reach, at.time, name);
+            findings.book(subject, beyond(error, rounding), reach, at.time, name);
         }
     }
 }

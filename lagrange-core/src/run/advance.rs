@@ -29,10 +29,10 @@ const NO_PROGRESS: f64 = 1e-10;
 /// Steps between two looks at rows that a step does not leave by more than rounding.
 const STEPS_OF_ROUNDING: usize = 16;
 
-/// A force this near to its limit, relative, is at it if it was.
+/// A force this near to its limit, relative, is at it if it was,
 const AT_LIMIT: f64 = 1e-13;
 
-/// and, of methods other than Taylor's, to so many tolerances: by that much they are off where a slip has come to rest.
+/// and so is one within so many tolerances by methods other than Taylor's, which are off by that much where a slip has come to rest.
 const ERRORS: f64 = 10.0;
 
 impl<T: Scalar> Run<T> {
