@@ -150,9 +150,10 @@ impl Operations {
         self.arguments_of(&[LN])
     }
 
-    /// The arguments of `atan`.
+    /// The arguments of `atan` that have no poles.
     pub(crate) fn arctangents(&self) -> impl Iterator<Item = usize> {
-        self.arguments_of(&[ATAN])
+        let arguments = self.arguments_of(&[ATAN]);
+        arguments.filter(|&argument| !self.has_poles(argument))
     }
 
     /// The arguments of `asin` and `acos`, which have a corner where these are ±1.
