@@ -75,9 +75,8 @@ impl<T: Scalar> Run<T> {
         let curves = &self.locator.polynomials;
         let [region, surface] = [Guard::Region(c), Guard::Gap(c)];
         let edge = curves.of(region)?;
-        let is_there = |s: f64| {
-            self.known_at(region, edge, s).abs() <= self.nearby(c) && self.is_near_others(c, s)
-        };
+        let is_there =
+            |s: f64| self.distance(region, edge, s) <= self.nearby(c) && self.is_near_others(c, s);
         let comes = |guard: Guard, curve: &[f64]| {
             find_root(curve, |root| {
                 let (s, _) = self.place(guard, &root);
@@ -98,7 +97,7 @@ impl<T: Scalar> Run<T> {
     /// Whether the motion is near the surface of a contact at a part of the step at hand.
     fn is_near(&self, c: usize, s: f64) -> bool {
         let surface = Guard::Gap(c);
-        let is_near = |gap: &[f64]| self.known_at(surface, gap, s).abs() <= self.nearby(c);
+        let is_near = |gap: &[f64]| self.distance(surface, gap, s) <= self.nearby(c);
         self.now.mode.contacts[c] || self.locator.polynomials.of(surface).is_some_and(is_near)
     }
 

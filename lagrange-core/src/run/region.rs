@@ -70,25 +70,27 @@ impl<T: Scalar> Run<T> {
         }
         // Just after the edge has been located, its first coefficient is zero.
         // Of an edge that is rounding over the whole step roots tell nothing.
-        let is_in = |curve| value(curve, s) >= 0.0 || self.known_at(edge, curve, s) >= 0.0;
+        let places = [s, self.interpolated(edge, s)];
+        let is_in = |curve| places.iter().any(|s| value(curve, *s) >= 0.0);
         !self.leaves(c, curve, s) && self.judged(edge, curve).is_none_or(is_in)
     }
 
     /// Whether the motion is at the edge of contact `c`, of this curve, and goes out.
     fn leaves(&self, c: usize, edge: &[f64], s: f64) -> bool {
         let guard = Guard::Region(c);
-        let distance = self.known_at(guard, edge, s).abs();
-        self.falls_here(guard, edge, s) && distance <= self.touching(c)
+        self.falls_here(guard, edge, s) && self.distance(guard, edge, s) <= self.touching(c)
     }
 
-    /// The value of a guard of this curve at part `s` of the step on the dense output.
-    pub(super) fn known_at(&self, guard: Guard, curve: &[f64], s: f64) -> f64 {
-        value(curve, self.interpolated(guard, s))
+    /// How far a guard of this curve is from zero at part `s` of the step: by its curve, or by that where its root was found on the dense output, if that is nearer.
+    pub(super) fn distance(&self, guard: Guard, curve: &[f64], s: f64) -> f64 {
+        let places = [s, self.interpolated(guard, s)];
+        let [one, other] = places.map(|s| value(curve, s).abs());
+        one.min(other)
     }
 
     /// Whether a guard of this curve falls through zero at part `s` of the step, as steps are located.
     fn falls_here(&self, guard: Guard, curve: &[f64], s: f64) -> bool {
-        let (distance, slope) = (self.known_at(guard, curve, s).abs(), slope(curve, s));
+        let (distance, slope) = (self.distance(guard, curve, s), slope(curve, s));
         slope < 0.0 && distance <= self.blur(guard, curve, distance).max(-SOON * slope)
     }
 
@@ -125,7 +127,7 @@ impl<T: Scalar> Run<T> {
         let root = find_root(self.judged(edge, curve)?, Break)?;
         let enters = root.direction == Direction::Rising && !root.grazing;
         let (s, width) = self.place(edge, &root);
-        let touches = self.known_at(surface, gap, s).abs() <= self.touching(c);
+        let touches = self.distance(surface, gap, s) <= self.touching(c);
         (enters && touches && !self.is_held_at(edge, s)).then_some((s, width))
     }
 
@@ -153,13 +155,13 @@ impl<T: Scalar> Run<T> {
             {
                 continue;
             }
-            let gap = self.known_at(guard, curve, end);
+            let gap = value(curve, end);
             // Within the region it can only be a root that rounding has put into the next step.
             let blur = self.blur(guard, curve, gap.abs());
             let passed = gap < -blur.max(self.touching(c)) || !self.within_region(guard, end);
             // What reaches the edge and the surface at once passes by it, unless it has been found to come onto it.
             let edge = self.locator.polynomials.of(Guard::Region(c));
-            let passes = gap.abs() <= self.touching(c)
+            let passes = self.distance(guard, curve, end) <= self.touching(c)
                 && self.falls_here(guard, curve, end)
                 && !self.locator.fallen.contains(&Guard::Region(c))
                 && !self.is_held_at(Guard::Region(c), end)
@@ -212,13 +214,11 @@ impl<T: Scalar> Run<T> {
             let Guard::Region(c) = edge else {
                 continue;
             };
-            let (distance, slope) = (self.known_at(edge, curve, end).abs(), slope(curve, end));
+            let (distance, slope) = (self.distance(edge, curve, end), slope(curve, end));
             let surface = Guard::Gap(c);
             let crosses = match polynomials.of(surface) {
                 _ if self.now.mode.contacts[c] => slope < 0.0,
-                Some(gap) => {
-                    slope > 0.0 && self.known_at(surface, gap, end).abs() <= self.touching(c)
-                }
+                Some(gap) => slope > 0.0 && self.distance(surface, gap, end) <= self.touching(c),
                 None => false,
             };
             // Polynomials are cut off where the tolerance allows it, and edges of surfaces that were entered are lowered by as much.
@@ -246,7 +246,7 @@ impl<T: Scalar> Run<T> {
         let mut fallen = core::mem::take(&mut self.locator.fallen);
         let polynomials = &self.locator.polynomials;
         for (guard, curve) in polynomials.of_mode() {
-            let gap = self.known_at(guard, curve, end).abs();
+            let gap = self.distance(guard, curve, end);
             let size: f64 = curve.iter().map(|c| c.abs()).sum();
             if matches!(guard, Guard::Gap(_))
                 && !fallen.contains(&guard)
