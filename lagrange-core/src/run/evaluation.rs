@@ -138,14 +138,16 @@ impl<T: Scalar> Run<T> {
             .held
             .clone_from(&self.switcher.decider.decision.held);
         self.locator.polynomials.forces = self.switcher.decider.size_of_forces();
-        let speeds = self.now.state.v.iter().enumerate();
-        let speeds = speeds.map(|(j, v)| v.value().abs() + self.dynamics.at_rest(j));
-        self.locator.polynomials.momentum = self.switcher.decider.momentum(speeds);
         let redundant = &mut self.switcher.redundant;
         let composites = &self.switcher.decider.decision.composites;
         redundant.take_signs_of(composites, self.dynamics.description());
         self.now.outdate();
         self.hold_guards();
+        if self.locator.polynomials.watch_signs_of_normal_forces() {
+            let speeds = self.now.state.v.iter().enumerate();
+            let speeds = speeds.map(|(j, v)| v.value().abs() + self.dynamics.at_rest(j));
+            self.locator.polynomials.momentum = self.switcher.decider.momentum(speeds);
+        }
     }
 
     /// Holds what the guards of the mode, which `dynamics` is in, need.

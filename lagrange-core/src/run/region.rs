@@ -70,8 +70,7 @@ impl<T: Scalar> Run<T> {
         }
         // Just after the edge has been located, its first coefficient is zero.
         // Of an edge that is rounding over the whole step roots tell nothing.
-        let places = [s, self.interpolated(edge, s)];
-        let is_in = |curve| places.iter().any(|s| value(curve, *s) >= 0.0);
+        let is_in = |curve| self.readings(edge, curve, s).any(|value| value >= 0.0);
         !self.leaves(c, curve, s) && self.judged(edge, curve).is_none_or(is_in)
     }
 
@@ -81,11 +80,21 @@ impl<T: Scalar> Run<T> {
         self.falls_here(guard, edge, s) && self.distance(guard, edge, s) <= self.touching(c)
     }
 
-    /// How far a guard of this curve is from zero at part `s` of the step: by its curve, or by that where its root was found on the dense output, if that is nearer.
-    pub(super) fn distance(&self, guard: Guard, curve: &[f64], s: f64) -> f64 {
+    /// What a guard of this curve is at part `s` of the step, and where its root was found on the dense output.
+    fn readings<'a>(
+        &self,
+        guard: Guard,
+        curve: &'a [f64],
+        s: f64,
+    ) -> impl Iterator<Item = f64> + use<'a, T> {
         let places = [s, self.interpolated(guard, s)];
-        let [one, other] = places.map(|s| value(curve, s).abs());
-        one.min(other)
+        places.into_iter().map(|s| value(curve, s))
+    }
+
+    /// How far a guard of this curve is from zero at part `s` of the step, by the reading that is nearer.
+    pub(super) fn distance(&self, guard: Guard, curve: &[f64], s: f64) -> f64 {
+        let readings = self.readings(guard, curve, s);
+        readings.map(f64::abs).fold(f64::INFINITY, f64::min)
     }
 
     /// Whether a guard of this curve falls through zero at part `s` of the step, as steps are located.

@@ -294,7 +294,7 @@ impl<T: Scalar> Decider<T> {
         here: SwitchContext<'_, T>,
         listings: &mut Listings,
     ) -> Result<bool, EvaluationError> {
-        let outcome = self.parts_in_turn(dynamics, table, here, listings, |_| ());
+        let outcome = self.parts_in_turn(dynamics, table, here, listings, |_, _| ());
         self.undecided.fill(false);
         outcome
     }
@@ -305,10 +305,10 @@ impl<T: Scalar> Decider<T> {
         dynamics: &mut Dynamics<T>,
         table: &mut Table,
         here: SwitchContext<'_, T>,
-    ) -> Option<usize> {
+    ) -> Option<(Parts, usize)> {
         let mut listings = core::mem::take(&mut self.listings);
         let mut found = None;
-        let note = |part| found = Some(part);
+        let note = |parts, part| found = Some((parts, part));
         // What cannot be evaluated is no answer.
         _ = self.parts_in_turn(dynamics, table, here, &mut listings, note);
         self.undecided.fill(false);
@@ -322,10 +322,10 @@ impl<T: Scalar> Decider<T> {
         table: &mut Table,
         here: SwitchContext<'_, T>,
         listings: &mut Listings,
-        mut without_mode: impl FnMut(usize),
+        without_mode: impl FnOnce(Parts, usize),
     ) -> Result<bool, EvaluationError> {
         let d = dynamics.description();
-        let parts = &Parts::of(d, dynamics.effects(), here.facts);
+        let parts = Parts::of(d, dynamics.effects(), here.facts);
         // Branches act on everything.
         if parts.count < 2 || here.facts.balanced.contains(&true) {
             return Ok(false);
@@ -342,12 +342,12 @@ impl<T: Scalar> Decider<T> {
             let contacts = self.undecided.iter_mut().zip(&parts.contacts);
             contacts.for_each(|(undecided, of)| *undecided &= *of != part);
             let Some(candidates) =
-                listings.list_part(dynamics, here, &self.rows, &mut whole, (parts, part))
+                listings.list_part(dynamics, here, &self.rows, &mut whole, (&parts, part))
             else {
                 return Ok(false);
             };
             if !self.search(dynamics, table, here, candidates)? {
-                without_mode(part);
+                without_mode(parts, part);
                 return Ok(false);
             }
             ambiguous |= self.decision.ambiguous;
@@ -477,8 +477,10 @@ impl<T: Scalar> Decider<T> {
     ) -> Error {
         let d = dynamics.description();
         let part = self.part_without_mode(dynamics, table, here);
-        let parts = part.map(|part| (Parts::of(d, dynamics.effects(), here.facts), part));
-        let within = |guard: Guard| parts.as_ref().is_none_or(|(of, part)| of.has(*part, guard));
+        let within = |guard: Guard| {
+            part.as_ref()
+                .is_none_or(|(parts, part)| parts.has(*part, guard))
+        };
         let item = concerned(d, here.facts, here.present, within);
         let holds = |(i, constraint): (usize, &Constraint)| {
             let contact = &d.contacts[constraint.while_contact?];

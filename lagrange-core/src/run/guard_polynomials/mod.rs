@@ -61,7 +61,7 @@ pub(super) struct GuardPolynomials {
     pub(super) extents: Vec<f64>,
     /// What the forces of the mode were made of as it began.
     pub(super) forces: f64,
-    /// The momentum of the motion as the mode began.
+    /// The momentum of the motion as the mode began, where signs of normal forces are watched.
     pub(super) momentum: f64,
     /// The stops and marks that take part.
     pub(super) stops: Vec<usize>,
@@ -168,6 +168,12 @@ impl GuardPolynomials {
         self.list.clear();
         self.list.extend(curves);
         self.shape(self.width);
+    }
+
+    /// Whether the sign of a normal force is among the guards.
+    pub(super) fn watch_signs_of_normal_forces(&self) -> bool {
+        let mut guards = self.list.iter().map(|curve| curve.guard);
+        guards.any(|guard| matches!(guard, Guard::NormalForceSign(_)))
     }
 
     /// The same in a mode that goes on: what may fall below zero still may, and what is known of guards over the step at hand is kept. Whether
