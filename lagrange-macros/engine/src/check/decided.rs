@@ -16,12 +16,39 @@ impl Prover<'_> {
         let at_least: Vec<ExprId> = at_least.collect();
         slips.any(|(friction, state)| {
             state.is_forward().is_some_and(|forward| {
-                at_least.iter().any(|&e| {
-                    let ratio = ratio(self.pool, e, friction.slip[0].0);
-                    ratio.is_some_and(|ratio| ratio.is_negative() == forward)
-                })
+                let slip = friction.slip[0].0;
+                at_least
+                    .iter()
+                    .any(|&e| self.needs_direction(e, slip, !forward))
             })
         })
+    }
+
+    /// Whether e ≥ 0 needs a slip forward or backward: e is a multiple of the slip and something that is never positive.
+    fn needs_direction(&mut self, e: ExprId, slip: ExprId, forward: bool) -> bool {
+        let pool = &mut *self.pool;
+        let speeds = self.mechanics.coordinates.iter().map(|q| q[1]);
+        let speed = speeds.clone().find(|&v| pool.depends_on(slip, v));
+        let Some(speed) = speed else {
+            return false;
+        };
+        let [of_e, of_slip] = [e, slip].map(|e| pool.differentiate(e, speed));
+        let Some(multiple) = ratio(pool, of_e, of_slip) else {
+            return false;
+        };
+        let share = pool.scale(slip, multiple);
+        let rest = pool.sub(share, e);
+        // Fields are positive; written as squares they show it.
+        let fields = self.mechanics.parameters.iter();
+        let squares: Vec<_> = fields
+            .map(|&field| {
+                let leaf = pool.leaf(field);
+                (field, pool.mul(leaf, leaf))
+            })
+            .collect();
+        let rest = pool.substitute(rest, &squares);
+        let rest = pool.simplify(rest);
+        multiple.is_negative() != forward && pool.is_never_negative(rest)
     }
 
     /// Branches on what the mode or the conditions say: a closed contact pushes, an open gap is positive, a slip has its

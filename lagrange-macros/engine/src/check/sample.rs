@@ -109,6 +109,15 @@ pub(super) fn sample<'a>(pool: &Pool, region: &Region<'a>, seed: u64) -> Result<
             return Err(Trouble::NotSquare.into());
         }
     }
+    // The direction of a slip belongs to the mode.
+    for (friction, state) in mechanics.frictions.iter().zip(&region.mode.frictions) {
+        if let Some(forward) = state.is_forward() {
+            let slip = mechanics.rows[friction.rows[0]].velocity;
+            if (numbers.values(pool, &[slip])?[0].value > 0.0) != forward {
+                return Err(Trouble::NotSquare.into());
+            }
+        }
+    }
     let feasible = feasible(pool, region, &mut numbers)?;
     Ok(State {
         numbers,
@@ -211,22 +220,13 @@ fn feasible(pool: &Pool, region: &Region, numbers: &mut Floating) -> Result<bool
             }
         };
         match state {
-            FrictionState::Inactive => {}
+            FrictionState::Inactive | FrictionState::Slip(_) => {}
             FrictionState::Stick => {
                 let most = numbers.values(pool, &[friction.static_coefficient])?[0].value * normal;
                 let rows = friction.rows.iter();
                 let square: f64 = rows.map(|&row| force(numbers, row).powi(2)).sum();
                 if square.sqrt() > most {
                     return Ok(false);
-                }
-            }
-            FrictionState::Slip(_) => {
-                if let Some(forward) = state.is_forward() {
-                    let slip = mechanics.rows[friction.rows[0]].velocity;
-                    let slip = numbers.values(pool, &[slip])?[0].value;
-                    if (slip > 0.0) != forward {
-                        return Ok(false);
-                    }
                 }
             }
         }

@@ -198,6 +198,46 @@ fn friction_in_space_and_on_a_wire() {
     );
 }
 
+/// A condition on how fast something slips leaves one direction open, in whatever form it is written.
+#[test]
+fn speeds_of_slips() {
+    let belt = "coordinates(x, phi), kinetic = m/2*der(x)^2 + i/2*der(phi)^2,
+        friction(f: slip = der(x) - r*der(phi), static = mu, kinetic = mu, normal = n)";
+    let fields = "m i r mu n v0";
+    for fast in [
+        "slip(f) >= 0.1",
+        "slip(f) >= v0",
+        "der(x) >= r*der(phi) + v0/2",
+        "-2*r*der(phi) >= 3 - 2*der(x) + x^2",
+        "slip(f) >= 1 + v0*der(phi)^2",
+    ] {
+        proven(
+            belt,
+            fields,
+            &format!("f == -mu*n when slips(f) and {fast}"),
+        );
+        let other = refuted(belt, fields, &format!("f == mu*n when slips(f) and {fast}"));
+        assert!(other.contains("f slips forward"), "{other}");
+    }
+    for fast in ["-0.1 >= slip(f)", "r*der(phi) >= der(x) + v0"] {
+        proven(belt, fields, &format!("f == mu*n when slips(f) and {fast}"));
+    }
+    // Slips to either side, as fast as that, are left open by these.
+    for open in [
+        "slip(f) >= -0.1",
+        "slip(f) >= -v0",
+        "slip(f) >= der(phi)",
+        "slip(f)^2 >= v0",
+    ] {
+        let state = refuted(
+            belt,
+            fields,
+            &format!("f == -mu*n when slips(f) and {open}"),
+        );
+        assert!(state.contains("f slips backward"), "{state}");
+    }
+}
+
 #[test]
 fn branches() {
     let bumper = "coordinates(x), kinetic = m/2*der(x)^2, force(spring: x = -k*max(x - gap0, 0))";
