@@ -180,7 +180,7 @@ impl<T: Scalar> Run<T> {
     fn hit_among_samples(&mut self) -> Result<Option<Hit>, Error> {
         let (mut corrections, mut closer, mut turned) = (0, PAST.iter(), false);
         loop {
-            self.sharpen_roots(1.0);
+            self.sharpen_roots(1.0, 1.0);
             let hit = self.first_hit();
             // What happens close to the start is for a method that can make any step.
             if hit.end() == 0.0 || self.hides_a_start() {

@@ -98,15 +98,15 @@ impl<T: Scalar> Run<T> {
         }
     }
 
-    /// Finds where the guards vanish on the dense output, next to the roots of their polynomials: no farther away than `within` of the step, for of several
-    /// roots at a corner another may be found.
-    pub(super) fn sharpen_roots(&mut self, within: f64) {
+    /// Finds where the guards vanish on the dense output, next to the roots of their polynomials up to part `until` of the step: no farther away than `within`
+    /// of the step, for of several roots at a corner another may be found.
+    pub(super) fn sharpen_roots(&mut self, until: f64, within: f64) {
         self.locator.polynomials.roots.clear();
         let mut all = RootList::new();
         let mut index = 0;
         while let Some((guard, curve)) = self.locator.polynomials.get(index) {
             roots(self.judged(guard, curve).unwrap_or_default(), &mut all);
-            for root in all.iter() {
+            for root in all.iter().filter(|root| root.s <= until) {
                 let exact = self.sharpened(index, root);
                 let exact = exact.filter(|exact| (exact - root.s).abs() <= within);
                 // What rounding does to the coefficients it does to the samples as well.
@@ -155,6 +155,10 @@ impl<T: Scalar> Run<T> {
     /// Where guard number `index` vanishes next to a root of its interpolation. Nothing where it only touches zero, or vanishes
     /// beyond the step.
     fn sharpened(&mut self, index: usize, root: &Root) -> Option<f64> {
+        /// A root is no farther from that of the interpolation than this share of its part of the step.
+        const NEAR: f64 = 0.1;
+        /// Secants that come closer make a guard smaller by this factor at least.
+        const CLOSER: f64 = 0.1;
         const MOST_PROBES: usize = 12;
         const MOST_SECANTS: usize = 60;
         if root.grazing {
@@ -175,17 +179,39 @@ impl<T: Scalar> Run<T> {
             let value = side * curves.value(index, &run.now.mode, &run.dynamics);
             (!value.is_nan()).then_some(value)
         };
-        let first = guard_at(self, root.s)?;
-        let mut reach = (2.0 * first / rate).abs().max(4.0 * f64::EPSILON * root.s);
-        let [mut before, mut after] = [(root.s, first); 2];
+        // Secants, the first of them along the interpolation, as long as they come closer.
+        let mut nearest = (root.s, guard_at(self, root.s)?);
+        let mut fall = rate;
+        loop {
+            let (s, size) = (nearest.0 + nearest.1 / fall, nearest.1.abs());
+            if !((s - root.s).abs() <= NEAR * root.s && s <= 1.0) {
+                break;
+            }
+            let rounding = self
+                .locator
+                .polynomials
+                .rounding(size, guard, &self.dynamics);
+            if size <= rounding || (s - nearest.0).abs() <= 2.0 * f64::EPSILON * s {
+                return Some(s);
+            }
+            let value = guard_at(self, s)?;
+            fall = (nearest.1 - value) / (s - nearest.0);
+            if !(value.abs() <= CLOSER * size && fall > 0.0) {
+                break;
+            }
+            nearest = (s, value);
+        }
+        let (start, first) = nearest;
+        let mut reach = (2.0 * first / rate).abs().max(4.0 * f64::EPSILON * start);
+        let [mut before, mut after] = [nearest; 2];
         for _ in 0..MOST_PROBES {
             if before.1 >= 0.0 && after.1 <= 0.0 {
                 break;
             }
             let (s, probe) = if first > 0.0 {
-                ((root.s + reach).min(1.0), &mut after)
+                ((start + reach).min(1.0), &mut after)
             } else {
-                ((root.s - reach).max(0.0), &mut before)
+                ((start - reach).max(0.0), &mut before)
             };
             *probe = (s, guard_at(self, s)?);
             reach *= 4.0;
@@ -193,7 +219,7 @@ impl<T: Scalar> Run<T> {
         if before.1 < 0.0 || after.1 > 0.0 || known > 0 && before.0 == 0.0 {
             return None;
         }
-        // Secants that keep the root between them (the Illinois algorithm, Dowell & Jarratt 1971).
+        // Else secants that keep the root between them (the Illinois algorithm, Dowell & Jarratt 1971).
         let mut weights = [before.1, after.1];
         let mut moved = 0.0;
         for _ in 0..MOST_SECANTS {

@@ -307,7 +307,7 @@ impl<T: Scalar> Run<T> {
         if !self.samples_hold() {
             return Ok(None);
         }
-        self.sharpen_roots(1.0);
+        self.sharpen_roots(1.0, 1.0);
         let hit = self.first_hit();
         let distance = self.distance_at(hit.end());
         let near = distance < self.least_distance();

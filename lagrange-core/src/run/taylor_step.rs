@@ -242,7 +242,7 @@ impl<T: Scalar> Run<T> {
         if !self.is_off_root(&hit, Located::Exactly) {
             return hit;
         }
-        self.sharpen_roots(SHARPENED);
+        self.sharpen_roots(hit.end() + SHARPENED, SHARPENED);
         let sharper = self.first_hit();
         let same = matches!(
             (&hit, &sharper),
