@@ -109,7 +109,8 @@ impl<T: Scalar> HeldBranches<T> {
         dynamics.tape(at.t, at.q, at.v);
         sizes(dynamics, &mut self.here);
         for (b, held) in self.held.iter_mut().enumerate() {
-            *held &= self.here[b] <= SMALL * self.beside[b];
+            // What vanishes beside the rows as well is not held by them, as max(0, u) while u = if(t <= t1, 0, F) is 0: it jumps or grows with u.
+            *held &= self.here[b] < SMALL * self.beside[b];
         }
         if !self.held.contains(&true) {
             return;
