@@ -10,7 +10,7 @@ use crate::dynamics::Dynamics;
 use crate::effects::Item;
 use crate::error::Error;
 use crate::mode::{FrictionMode, Mode};
-use crate::system::{Load, ValueRef};
+use crate::system::{Constraint, Load, ValueRef};
 
 /// Energies at one instant, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -217,18 +217,28 @@ impl<'a, T: Scalar> EnergyMeter<'a, T> {
         })
     }
 
-    /// Works of the impulses of an impact in constraints that move by themselves, (row, J): before and after it these have one speed.
+    /// Works of the impulses of an impact, (row, J): each by the mean of the speeds along its row before and after (Thomson & Tait 1867, section 308).
+    /// Constraints that hold before and after, and do not move by themselves, do none.
     pub(super) fn works_of_impulses(&mut self, event: &Event<T>) -> Vec<(usize, f64)> {
         self.enter(&event.after);
-        let State { q, v, .. } = &event.state_after;
+        let (State { q, v, .. }, after) = (&event.state, &event.state_after.v);
         let dynamics = &mut self.sampler.dynamics;
         dynamics.tape(event.time, q, v);
         let d = dynamics.description();
-        let rows = d.constraints.iter().map(|constraint| constraint.row);
-        let moving = rows.filter(|&row| d.rows[row].rheonomic);
-        let struck = moving.filter(|&row| event.impulses.get(row).is_some_and(|x| !x.is_zero()));
-        let work = |row: usize| (event.impulses[row] * dynamics.speed_along(row, v)).value();
-        struck.map(|row| (row, work(row))).collect()
+        let is_still = |row: usize| {
+            let mut constraints = d.constraints.iter();
+            let lasts = |constraint: &Constraint| {
+                constraint.row == row && constraint.while_contact.is_none()
+            };
+            !d.rows[row].rheonomic && constraints.any(lasts)
+        };
+        let impulses = event.impulses.iter().enumerate();
+        let working = impulses.filter(|&(row, impulse)| !impulse.is_zero() && !is_still(row));
+        let work = |(row, &impulse): (usize, &T)| {
+            let speeds = dynamics.speed_along(row, v) + dynamics.speed_along(row, after);
+            (row, 0.5 * (impulse * speeds).value())
+        };
+        working.map(work).collect()
     }
 
     /// Whether anything can give or take energy in a segment.

@@ -2,8 +2,8 @@
 //!
 //! The Jacobi integral h = v·∂L/∂v − L (the energy, where neither L nor the constraints contain time) obeys
 //! dh/dt = Σ Q·v − ∂L/∂t (Goldstein, Poole & Safko 2002, section 2.7). Each power is integrated over the stored step
-//! polynomials by Gauss–Legendre quadrature; impacts add their jumps, of which what drives on through
-//! them has its share. What is left over is the closure error.
+//! polynomials by Gauss–Legendre quadrature; impacts add their jumps, of which each item has
+//! the work of its impulse. What is left over is the closure error.
 
 use super::energy::{Energies, EnergyMeter};
 use super::{EventKind, State, Trajectory};
@@ -256,7 +256,7 @@ fn kind(d: &Description, row: usize) -> &'static str {
 }
 
 /// Energy jumps at impacts, (time, entry, J), and where energies change with time alone; several events of one impact book it once. Adds an entry
-/// for every item that was hit.
+/// for every contact that was hit, and for whatever else began to hold or rubbed in it.
 fn jumps<T: Scalar>(
     trajectory: &Trajectory<T>,
     meter: &mut EnergyMeter<'_, T>,
@@ -301,27 +301,37 @@ fn jumps<T: Scalar>(
         // What an impact moves may be on another side of its conditions.
         let before = meter.energies(began, mode_of(&event.before), from)?;
         let after = meter.energies(event.time, mode_of(&event.after), to)?;
-        // What drives on through an impact works in it as well.
+        let (name, time) = (event.subject.name(d), event.time.value());
+        let entry = entry_of_impact(work, name);
         let mut energy = (after.jacobi - before.jacobi).value();
         if event.kind == EventKind::Impact {
-            for (row, driven) in meter.works_of_impulses(event) {
-                energy -= driven;
-                jumps.push((event.time.value(), entries[loads + row], driven));
+            // The contact that names the impact has what the others leave.
+            for (row, share) in meter.works_of_impulses(event) {
+                let item = row_name(d, row);
+                let other = match kind(d, row) {
+                    "constraint" if d.rows[row].rheonomic => entries[loads + row],
+                    _ if item == name => continue,
+                    _ => entry_of_impact(work, item),
+                };
+                energy -= share;
+                jumps.push((time, other, share));
             }
         }
-        let name = event.subject.name(d);
-        let known = work
-            .iter()
-            .position(|e| e.kind == "impact" && e.name == name);
-        let entry = known.unwrap_or(work.len());
-        if known.is_none() {
-            work.push(Entry {
-                name,
-                kind: "impact",
-                work: 0.0,
-            });
-        }
-        jumps.push((event.time.value(), entry, energy));
+        jumps.push((time, entry, energy));
     }
     Ok(jumps)
+}
+
+/// The entry of what an item does in impacts; a new one where it has none.
+fn entry_of_impact(work: &mut Vec<Entry>, name: &'static str) -> usize {
+    let mut known = work.iter();
+    let known = known.position(|e| e.kind == "impact" && e.name == name);
+    known.unwrap_or_else(|| {
+        work.push(Entry {
+            name,
+            kind: "impact",
+            work: 0.0,
+        });
+        work.len() - 1
+    })
 }

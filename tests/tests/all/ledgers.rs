@@ -51,6 +51,40 @@ struct Ball {
     bounce: f64,
 }
 
+/// Two balls that have nothing to do with one another.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    emit = data,
+    coordinates(y, z),
+    kinetic = light/2 * der(y)^2 + heavy/2 * der(z)^2,
+    contact(floor: y >= 0, restitution = bounce),
+    contact(table: z >= 0, restitution = bounce/2),
+    start(thrown: y = fast, z = slow, der(y) = -fast, der(z) = -slow),
+)]
+struct TwoBalls {
+    light: f64,
+    heavy: f64,
+    bounce: f64,
+    fast: f64,
+    slow: f64,
+}
+
+/// A puck that is thrown slantingly onto a belt that runs across.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    contact(belt: y >= 0),
+    friction(cloth on belt: slip = der(x) - run, static = mu),
+    start(thrown: y = speed, der(y) = -speed),
+)]
+struct OntoBelt {
+    mass: f64,
+    speed: f64,
+    run: f64,
+    mu: f64,
+}
+
 /// A block that a belt carries against a spring.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
@@ -232,6 +266,67 @@ fn impacts_are_booked_when_they_happen_and_to_the_last() {
 }
 
 /// Static friction does work where its slip is that beside something that moves; the force of a floor at rest does exactly none.
+/// Each contact takes (1 − e²) of what its own ball had, although both are hit at one instant, t = 1.
+#[test]
+fn impacts_at_one_instant_are_booked_to_their_contacts() {
+    let mut random = Random::new(5);
+    for _ in 0..8 {
+        let balls = TwoBalls {
+            light: random.between(0.1, 1.0),
+            heavy: random.between(2.0, 9.0),
+            bounce: random.between(0.2, 0.9),
+            fast: random.between(3.0, 5.0),
+            slow: random.between(0.5, 2.0),
+        };
+        let record = run(&balls, balls.at(TwoBalls::THROWN), 2.0);
+        let ledger = record.ledger().expect("a recorded run");
+        let lost = |mass: f64, speed: f64, e: f64| -mass / 2.0 * speed.powi(2) * (1.0 - e * e);
+        let floor = lost(balls.light, balls.fast, balls.bounce);
+        let table = lost(balls.heavy, balls.slow, balls.bounce / 2.0);
+        agree(
+            format!("{balls:?}"),
+            work(&ledger, "floor", "impact"),
+            floor,
+            1e-12,
+        );
+        agree(
+            format!("{balls:?}"),
+            work(&ledger, "table", "impact"),
+            table,
+            1e-12,
+        );
+        assert!(closure(&record) < 1e-12, "{:e}", closure(&record));
+    }
+}
+
+/// The belt stops the fall, −m v²/2, and its friction impulse μ m v works by the mean speed μ v/2 of the puck, which slips on.
+#[test]
+fn what_friction_does_in_an_impact_is_its_own() {
+    let puck = OntoBelt {
+        mass: 0.3,
+        speed: 2.0,
+        run: 5.0,
+        mu: 0.4,
+    };
+    // The puck slips on after that without weight.
+    let record = run(&puck, puck.at(OntoBelt::THROWN), 1.5);
+    let ledger = record.ledger().expect("a recorded run");
+    let energy = puck.mass / 2.0 * puck.speed.powi(2);
+    agree("belt", work(&ledger, "belt", "impact"), -energy, 1e-12);
+    agree(
+        "cloth",
+        work(&ledger, "cloth", "impact"),
+        puck.mu.powi(2) * energy,
+        1e-12,
+    );
+    agree(
+        "after",
+        record.final_state().v[0],
+        puck.mu * puck.speed,
+        1e-12,
+    );
+}
+
 #[test]
 fn a_belt_works_while_it_carries() {
     let scene = Belt {

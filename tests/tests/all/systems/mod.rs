@@ -24,6 +24,7 @@ mod cart_pole;
 mod chain;
 mod choices;
 mod chute;
+mod clamps;
 mod corner;
 mod cradle;
 mod creeping;
