@@ -143,12 +143,13 @@ impl<T: Scalar> Examination<'_, T> {
         let (equations, findings) = (&mut self.equations, &mut self.findings);
         let (time, impulses) = (jump.time, &jump.impulses);
         for (f, friction) in equations.d.frictions.iter().enumerate() {
-            let Normal::Contact(c) = friction.normal else {
+            if let Normal::Given(_) = friction.normal {
                 continue;
-            };
+            }
             let (rows, name) = (friction.rows(), friction.name);
             let tangential = &impulses[rows.clone()];
-            if !(equations.includes(Item::Friction(f)) && jump.touches[c]) {
+            let is_struck = friction.normal.presses(equations.d, |c| jump.touches[c]);
+            if !(equations.includes(Item::Friction(f)) && is_struck) {
                 findings.book(Subject::Idle, length(tangential), 1.0, time, name);
                 continue;
             }

@@ -76,11 +76,8 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
     #[track_caller]
     fn close_under(mut self, friction: FrictionId) -> Self {
         let d = self.scene.description();
-        let contact = match named(d.frictions, friction.0, "friction").normal {
-            Normal::Contact(contact) => Some(contact),
-            normal => (normal.constraints(d).next()).and_then(|i| d.constraints[i].while_contact),
-        };
-        if let Some(contact) = contact {
+        let friction = named(d.frictions, friction.0, "friction");
+        if let Some(contact) = friction.normal.contact(d) {
             self.mode.contacts[contact] = true;
         }
         self

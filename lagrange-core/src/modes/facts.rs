@@ -47,7 +47,7 @@ impl SwitchFacts {
     /// Whether a friction is not left out and may have a force: what presses it touches.
     pub fn may_act(&self, friction: usize, d: &Description, effects: &Effects) -> bool {
         let normal = d.frictions[friction].normal;
-        normal.presses(|c| self.touching[c]) && effects.includes(d, Item::Friction(friction))
+        normal.presses(d, |c| self.touching[c]) && effects.includes(d, Item::Friction(friction))
     }
 
     /// Whether there is no mode that could go on: the present one is that of a start, a guess.

@@ -275,8 +275,9 @@ impl<T: Scalar> Holding<'_, T> {
             kept.contacts[c] &= !self.takes_part(c) || self.onto(&kept).is_ok();
         }
         for f in 0..mode.frictions.len() {
-            let presses = self.dynamics.description().frictions[f].normal;
-            if mode.frictions[f] == FrictionMode::Stick && presses.presses(|c| kept.contacts[c]) {
+            let d = self.dynamics.description();
+            let pressed = d.frictions[f].normal.presses(d, |c| kept.contacts[c]);
+            if mode.frictions[f] == FrictionMode::Stick && pressed {
                 kept.frictions[f] = FrictionMode::Stick;
                 if self.onto(&kept).is_err() {
                     kept.frictions[f] = FrictionMode::Inactive;

@@ -167,7 +167,7 @@ impl ConstraintStatus {
     fn look_at_friction<T: Scalar>(&mut self, f: usize, view: &View<T>) {
         let d = view.dynamics.description();
         let friction = &d.frictions[f];
-        if !friction.normal.presses(|c| self.mode.contacts[c]) {
+        if !friction.normal.presses(d, |c| self.mode.contacts[c]) {
             return;
         }
         let rows = friction.rows();

@@ -120,16 +120,15 @@ impl<T: Scalar> Run<T> {
             // A body that falls flat on its face while a corner of it sticks pushes that corner by the error of its angle.
             let sticks_on = self.now.mode.frictions[f] == FrictionMode::Stick
                 && outcome.slips[f] <= self.settings.tolerance;
+            let elsewhere = |c: usize| !self.switcher.near.contains(&c);
             facts.resting[f] = match friction.normal {
-                Normal::Contact(c) if !self.switcher.near.contains(&c) => facts.resting[f],
-                // Others that stick may have ended its slip.
-                Normal::Contact(_) | Normal::Constraint(_) | Normal::Resultant(_) => {
-                    outcome.sticks[f] || sticks_on || self.rests_after(outcome, f)
-                }
                 // No impulse acts there, but the impact may have begun or ended its slip. What sticks on is left with the error of the step.
                 Normal::Given(_) => {
                     facts.resting[f] && !self.slip_jumps(outcome, f) || self.rests_after(outcome, f)
                 }
+                normal if normal.contact(d).is_some_and(elsewhere) => facts.resting[f],
+                // Others that stick may have ended its slip.
+                _ => outcome.sticks[f] || sticks_on || self.rests_after(outcome, f),
             };
         }
         // Velocities have jumped: what was located for the old ones says nothing about the new.

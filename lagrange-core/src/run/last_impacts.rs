@@ -72,10 +72,10 @@ impl<T: Scalar> Run<T> {
         let of_impacts = |guard: Guard| match guard {
             Guard::Gap(c) | Guard::Normal(c) => is_near(c),
             Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) => {
-                d.frictions[f].normal.presses(is_near)
+                d.frictions[f].normal.presses(d, is_near)
             }
             // What rubs by a force of its own comes to rest by itself.
-            Guard::Slip(f) => near.iter().any(|&c| d.frictions[f].normal.is_of(c)),
+            Guard::Slip(f) => d.frictions[f].normal.contact(d).is_some_and(is_near),
             // How forces are shared is no event.
             Guard::Composite(_) | Guard::NormalForceSign(_) => true,
             Guard::Region(_) | Guard::Branch(_) | Guard::Stop(..) | Guard::Mark(..) => false,
@@ -151,7 +151,7 @@ impl<T: Scalar> Run<T> {
         self.evaluate_all_rows()?;
         for (f, friction) in d.frictions.iter().enumerate() {
             // A friction with a force of its own has slipped at the last impact and sticks again before the next one.
-            if friction.normal.presses(|c| near.contains(&c)) {
+            if friction.normal.presses(d, |c| near.contains(&c)) {
                 facts.resting[f] = rest.sticks[f] || self.slip_vanishes(f);
             }
         }

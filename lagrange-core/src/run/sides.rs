@@ -153,7 +153,7 @@ impl<T: Scalar> Run<T> {
         mode.clone_from(&self.now.mode);
         mode.contacts.copy_from_slice(&facts.touching);
         for (f, friction) in d.frictions.iter().enumerate() {
-            let rests = facts.resting[f] && friction.normal.presses(|c| facts.touching[c]);
+            let rests = facts.resting[f] && friction.normal.presses(d, |c| facts.touching[c]);
             mode.frictions[f] = match rests {
                 true => FrictionMode::Stick,
                 false => FrictionMode::Inactive,

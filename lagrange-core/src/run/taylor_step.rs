@@ -42,6 +42,10 @@ const ULPS: f64 = 16.0;
 /// Roots of Taylor polynomials are sharpened within this part of the step.
 pub(super) const SHARPENED: f64 = 1e-3;
 
+/// Where a guard does not vanish at the root of its polynomial, so many steps are tried, each shorter by this factor.
+const MOST_MISSES: usize = 4;
+const MISSED: f64 = 0.5;
+
 /// Steps are shorter where directions of slips are off by more than this share.
 pub(super) const ASTRAY: f64 = 1e-2;
 
@@ -57,7 +61,7 @@ impl<T: Scalar> Run<T> {
         let mut h = self.stepper.guarded.map_or(moves, |h| h.min(moves));
         let mut guarded = h < moves;
         let mut closer = 0;
-        let (mut corrections, mut shortened) = (0, 0);
+        let (mut corrections, mut shortened, mut missed) = (0, 0, 0);
         let mut jumps = false;
         let mut careful = self.settings.careful && self.begins_polynomial(moves);
         loop {
@@ -199,10 +203,14 @@ impl<T: Scalar> Run<T> {
                         self.state_at_end(end);
                         return Ok(hit);
                     }
-                    return Ok(match whole {
-                        true => hit,
-                        false => self.sharpened_hit(hit),
-                    });
+                    if whole {
+                        return Ok(hit);
+                    }
+                    if let Some(hit) = self.sharpened_hit(hit, missed < MOST_MISSES) {
+                        return Ok(hit);
+                    }
+                    missed += 1;
+                    h *= MISSED;
                 }
                 Verdict::Redo { h: smaller } => {
                     self.recorder.trajectory.work.rejected += 1;
@@ -237,10 +245,11 @@ impl<T: Scalar> Run<T> {
     }
 
     /// What ends the step, at the root of the guard itself where that of its polynomial is farther from it than rounding: the motion may be a polynomial and
-    /// the surface of a table that shakes not. The state there is in `scratch`, evaluated as that at the end of `hit` was.
-    fn sharpened_hit(&mut self, hit: Hit) -> Hit {
+    /// the surface of a table that shakes not. The state there is in `scratch`, evaluated as that at the end of `hit` was. Nothing where the guard does not
+    /// vanish and a shorter step may tell whether it does, unless that has been tried (`again` is false): a force may come close to its limit and turn back.
+    fn sharpened_hit(&mut self, hit: Hit, again: bool) -> Option<Hit> {
         if !self.is_off_root(&hit, Located::Exactly) {
-            return hit;
+            return Some(hit);
         }
         self.sharpen_roots(hit.end() + SHARPENED, SHARPENED);
         let sharper = self.first_hit();
@@ -249,14 +258,21 @@ impl<T: Scalar> Run<T> {
             (Hit::Guards(_), Hit::Guards(_)) | (Hit::Stop(..), Hit::Stop(..))
         );
         let near = (sharper.end() - hit.end()).abs() <= SHARPENED;
-        if same && near && self.evaluate_end(sharper.end()).is_ok() {
-            return sharper;
+        if same
+            && near
+            && self.evaluate_end(sharper.end()).is_ok()
+            && !(again && self.is_off_root(&sharper, Located::Exactly))
+        {
+            return Some(sharper);
         }
         self.locator.polynomials.roots.clear();
+        if again {
+            return None;
+        }
         let hit = self.first_hit();
         // It could be evaluated before.
         _ = self.evaluate_end(hit.end());
-        hit
+        Some(hit)
     }
 
     /// The step that the motion allows by the series at hand, and the order up to which that is used.

@@ -92,10 +92,11 @@ pub struct Description {
 }
 
 impl Description {
-    /// The frictions that a contact presses.
+    /// The frictions that are pressed while a contact is closed, by its force or by those of constraints that it has hold.
     pub(crate) fn frictions_on(&self, contact: usize) -> impl Iterator<Item = usize> + '_ {
         let frictions = self.frictions.iter().enumerate();
-        frictions.filter_map(move |(f, friction)| friction.normal.is_of(contact).then_some(f))
+        let pressed = move |normal: Normal| normal.contact(self) == Some(contact);
+        frictions.filter_map(move |(f, friction)| pressed(friction.normal).then_some(f))
     }
 
     /// Whether anything but outputs, stops and marks contains branch `index`.

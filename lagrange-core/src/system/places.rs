@@ -111,12 +111,17 @@ impl Normal {
         matches!(self, Normal::Contact(c) if c == contact)
     }
 
-    /// Whether something presses, given which contacts are closed.
-    pub(crate) fn presses(self, closed: impl FnOnce(usize) -> bool) -> bool {
+    /// The contact that must be closed for it to press, if there is one: of constraints that hold while a contact is closed, that contact.
+    pub(crate) fn contact(self, d: &Description) -> Option<usize> {
         match self {
-            Normal::Contact(contact) => closed(contact),
-            Normal::Constraint(_) | Normal::Resultant(_) | Normal::Given(_) => true,
+            Normal::Contact(contact) => Some(contact),
+            normal => (normal.constraints(d).next()).and_then(|i| d.constraints[i].while_contact),
         }
+    }
+
+    /// Whether something presses, given which contacts are closed.
+    pub(crate) fn presses(self, d: &Description, closed: impl FnOnce(usize) -> bool) -> bool {
+        self.contact(d).is_none_or(closed)
     }
 }
 

@@ -325,11 +325,12 @@ impl<T: Scalar> Choices<'_, T> {
 
     /// Whether a friction other than `f` may stick in a mode.
     fn others_hold(&self, mode: &Mode, f: usize) -> bool {
-        let frictions = self.description().frictions.iter().enumerate();
-        frictions.into_iter().any(|(other, friction)| {
+        let d = self.description();
+        let mut frictions = d.frictions.iter().enumerate();
+        frictions.any(|(other, friction)| {
             other != f
                 && self.here.facts.resting[other]
-                && friction.normal.presses(|c| mode.contacts[c])
+                && friction.normal.presses(d, |c| mode.contacts[c])
                 && self.grip(other) == Grip::Holds
         })
     }
@@ -356,7 +357,7 @@ impl<T: Scalar> Choices<'_, T> {
     pub fn of_friction(&self, mode: &Mode, f: usize, mut put: impl FnMut(FrictionMode)) {
         let d = self.description();
         let friction = &d.frictions[f];
-        let idle = !friction.normal.presses(|c| mode.contacts[c]);
+        let idle = !friction.normal.presses(d, |c| mode.contacts[c]);
         let grip = self.grip(f);
         if idle || grip == Grip::Absent || !self.dynamics.effects().includes(d, Item::Friction(f)) {
             return put(FrictionMode::Inactive);

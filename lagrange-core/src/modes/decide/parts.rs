@@ -109,7 +109,7 @@ impl Parts {
             })
             || frictions.any(|f| {
                 let idle = present.frictions[f] == FrictionMode::Inactive;
-                let acts = d.frictions[f].normal.presses(|c| facts.touching[c]);
+                let acts = d.frictions[f].normal.presses(d, |c| facts.touching[c]);
                 idle && acts || !idle && facts.resting[f] != present.frictions[f].rests()
             })
     }

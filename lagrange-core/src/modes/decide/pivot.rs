@@ -291,10 +291,8 @@ impl<T: Scalar> Choices<'_, T> {
                 _ => continue,
             };
             mode.contacts[c] = closed;
-            for (f, friction) in self.description().frictions.iter().enumerate() {
-                if friction.normal.is_of(c) {
-                    self.set_first(mode, f);
-                }
+            for f in self.description().frictions_on(c) {
+                self.set_first(mode, f);
             }
         }
     }

@@ -45,6 +45,8 @@ pub(super) struct FrictionRow<T> {
     pub components: usize,
     /// Where N comes from.
     pub bearer: NormalSource,
+    /// The place among the touches of the contact with which the constraint holds that N comes from.
+    pub while_touch: Option<usize>,
     /// N over the impulse of the bearer.
     pub factor: T,
     /// μs.

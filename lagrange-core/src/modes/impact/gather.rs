@@ -285,7 +285,7 @@ impl<T: Scalar> Gathering<T> {
         }
     }
 
-    /// Constraints that carry friction, then those of contacts that are hit; the others are solved with M.
+    /// Constraints that always act and carry friction, then those of contacts that are hit; the others are solved with M.
     fn list_constraints(&mut self, dynamics: &Dynamics<T>, near: &[usize], out: &mut Collision<T>) {
         let d = dynamics.description();
         let carries = |i: usize| {
@@ -322,6 +322,7 @@ impl<T: Scalar> Gathering<T> {
     ) {
         let d = dynamics.description();
         let friction = &d.frictions[f];
+        let constraints = &self.rows[..out.links + out.conditional.len()];
         let (bearer, factor) = match friction.normal {
             Normal::Contact(c) => (
                 near.iter()
@@ -331,14 +332,12 @@ impl<T: Scalar> Gathering<T> {
             ),
             Normal::Constraint(i) => {
                 let row = d.constraints[i].row;
-                let among = self.rows[..out.links].iter().position(|r| *r == row);
+                let among = constraints.iter().position(|r| *r == row);
                 (among.map(NormalSource::ConstraintRow), None)
             }
             normal @ Normal::Resultant(_) => {
-                let mut among = normal.rows(d).map(|row| {
-                    let links = &self.rows[..out.links];
-                    links.iter().position(|link| *link == row)
-                });
+                let rows = normal.rows(d);
+                let mut among = rows.map(|row| constraints.iter().position(|r| *r == row));
                 // All of them are there, or none is.
                 let bearing = Bearing::of(&mut among);
                 if let Some(bearing) = bearing.filter(|new| !out.bearings.contains(new)) {
@@ -355,11 +354,14 @@ impl<T: Scalar> Gathering<T> {
         let Some(bearer) = bearer else {
             return;
         };
+        let of_constraint = matches!(bearer, NormalSource::ConstraintRow(_));
+        let contact = friction.normal.contact(d).filter(|_| of_constraint);
         out.rubs.push(FrictionRow {
             friction: f,
             row: self.rows.len(),
             components: friction.components,
             bearer,
+            while_touch: contact.and_then(|c| near.iter().position(|n| *n == c)),
             factor: factor.map_or(T::one(), |place: ValueRef| dynamics.motion(place)),
             stick: dynamics.motion(friction.static_coefficient),
             slide: dynamics.motion(friction.kinetic_coefficient),

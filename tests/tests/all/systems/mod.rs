@@ -9,6 +9,7 @@ mod backlash;
 mod ball;
 mod barely_slips;
 mod bearing;
+mod bearings_on_wheels;
 mod before_rest;
 mod belt;
 mod bending_guards;

@@ -59,6 +59,15 @@ impl<T: Scalar> Pattern<T> {
             };
             judge(excess, noise, Violation::ContactRow(k));
         }
+        // What is not left has its `while` rows hold, whether or not it is pressed.
+        for &(row, k) in &c.conditional {
+            let touch = c.touches[k].row;
+            let is_left = self.after[touch].value() > self.noise[touch];
+            if phase.within[k] && !self.holds(k, phase) && !is_left {
+                let rate = self.after[row].value().abs();
+                judge(rate, self.noise[row], Violation::ContactRow(k));
+            }
+        }
         for (r, rub) in c.rubs.iter().enumerate() {
             if let Some((excess, noise)) = self.excess(c, rub, self.slides[r]) {
                 let leeway = if rub.components > 1 { self.leeway } else { 1.0 };

@@ -99,8 +99,15 @@ impl<T: Scalar> Pattern<T> {
             && phase.includes(rub)
             && match rub.bearer {
                 NormalSource::ContactRow(k) => self.pressed[k] || phase.least[k].value() > 0.0,
-                NormalSource::ConstraintRow(_) => true,
+                NormalSource::ConstraintRow(_) => {
+                    rub.while_touch.is_none_or(|k| self.holds(k, phase))
+                }
             }
+    }
+
+    /// Whether the `while` rows of touch `k` hold.
+    pub(super) fn holds(&self, k: usize, phase: &Phase<T>) -> bool {
+        phase.within[k] && (self.pressed[k] || phase.struck[k])
     }
 
     /// Solves the equations, from the given directions of slip; false if they have no solution.
@@ -126,9 +133,11 @@ impl<T: Scalar> Pattern<T> {
         self.impulses.resize(c.size, T::zero());
         self.unknowns.clear();
         self.unknowns.extend(0..c.links);
-        let live = |k: usize| phase.within[k] && (self.pressed[k] || phase.struck[k]);
-        let conditional = c.conditional.iter().filter(|(_, k)| live(*k));
-        self.unknowns.extend(conditional.map(|(row, _)| *row));
+        for &(row, touch) in &c.conditional {
+            if self.holds(touch, phase) {
+                self.unknowns.push(row);
+            }
+        }
         for (k, touch) in c.touches.iter().enumerate() {
             if !phase.within[k] {
                 continue;
