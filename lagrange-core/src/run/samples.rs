@@ -248,7 +248,7 @@ impl<T: Scalar> Run<T> {
 
     /// Whether what ends the step, whose values `dynamics` holds there, is no zero of the guard but of its interpolation only.
     pub(super) fn misses_its_root(&mut self, hit: &Hit) -> bool {
-        self.is_off_root(hit, Located::ByInterpolation(self.settings.tolerance))
+        self.is_off_root(hit, Located::Exactly)
     }
 
     /// The same to what is located in this way.
