@@ -33,8 +33,10 @@ pub(super) struct SharpRoot {
     guard: Guard,
     /// The root of its polynomial.
     interpolated: f64,
-    /// The root of the guard on the dense output.
+    /// The root of the guard on the dense output, or that of its polynomial where none is near.
     exact: f64,
+    /// Whether the guard vanishes there.
+    is_found: bool,
     /// Half the width of the interval within which rounding lets the root be.
     width: f64,
 }
@@ -115,6 +117,7 @@ impl<T: Scalar> Run<T> {
                     guard,
                     interpolated: root.s,
                     exact: exact.unwrap_or(root.s),
+                    is_found: exact.is_some(),
                     width,
                 });
             }
@@ -248,14 +251,21 @@ impl<T: Scalar> Run<T> {
 
     /// Whether what ends the step, whose values `dynamics` holds there, is no zero of the guard but of its interpolation only.
     pub(super) fn misses_its_root(&mut self, hit: &Hit) -> bool {
-        self.is_off_root(hit, Located::Exactly)
+        self.is_off_root(hit, Located::ByInterpolation(self.settings.tolerance))
     }
 
     /// The same to what is located in this way.
     pub(super) fn is_off_root(&mut self, hit: &Hit, located: Located) -> bool {
         self.dynamics.report_value();
-        let (curves, mode) = (&self.locator.polynomials, &self.now.mode);
-        let vanishes = |index| curves.vanishes(index, mode, &self.dynamics, located);
+        let (curves, mode, end) = (&self.locator.polynomials, &self.now.mode, hit.end());
+        let is_found = |index| {
+            let guard = curves.get(index).map(|(guard, _)| guard);
+            let of_guard = |root: &&SharpRoot| Some(root.guard) == guard && root.is_found;
+            let mut known = curves.roots.iter().filter(of_guard);
+            known.any(|root| (root.exact - end).abs() <= root.width)
+        };
+        let vanishes =
+            |index| is_found(index) || curves.vanishes(index, mode, &self.dynamics, located);
         match *hit {
             Hit::Nothing | Hit::Turned(_) => false,
             Hit::Guards(_) => {

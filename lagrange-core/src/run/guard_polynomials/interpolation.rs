@@ -180,10 +180,11 @@ impl GuardPolynomials {
     ) -> bool {
         let guard = self.list[index].guard;
         let share = match located {
-            Located::ByInterpolation(tolerance) => {
+            Located::ByInterpolation(tolerance) if !guard.is_force() => {
                 allowance::<T>(guard, tolerance, true).max(INTERPOLATION)
             }
-            Located::Exactly => allowance::<T>(guard, 0.0, true),
+            // A force may come close to its limit and turn back.
+            _ => allowance::<T>(guard, 0.0, true),
         };
         let (c, value) = (self.curve(index), self.value(index, mode, dynamics));
         let allowed = share * size(value, c) + self.rounding(value.abs(), guard, dynamics);
