@@ -1,7 +1,12 @@
 //! How far two runs of one system are apart: at the end, and event by event.
 //!
 //! Errors of a coordinate or velocity x are |Δx| / max(1, |x|), relative where x is large and absolute, in its own unit, where it
-//! is small; errors of times are the same in seconds. Where a coordinate has an absolute tolerance of its own, that size takes the place of 1. Impacts that accumulate are infinitely many, and how many of them a run
+//! is small; errors of times are the same in seconds. Where a coordinate has an absolute tolerance of its own, that size takes the place of 1.
+//!
+//! Rounding decides in which order a run finds what happens at one instant, so that this order is not compared; where it matters to the motion, what
+//! follows tells. Marks do not change the motion: their order is not compared at all, and the difference of their times is their error.
+//!
+//! Impacts that accumulate are infinitely many, and how many of them a run
 //! follows one by one depends on its tolerance: those that only one of two runs follows have the error of the instant at which
 //! they end. The same holds of the last turns of contacts that come to rest in turn, infinitely often, each by
 //! impacts that accumulate.
@@ -74,11 +79,26 @@ pub struct Estimate {
     pub difference: Difference,
 }
 
-/// Share of a time, s, or of a second: what goes on for longer than this after impacts have accumulated is a motion, and not the last of its turns.
-const LAST_TURNS: f64 = 1e-4;
+/// Share of a time, s, or of a second: what goes on for longer than this is a motion, and neither one instant, of which two runs tell in another order,
+/// nor the last turns after impacts have accumulated.
+const INSTANT: f64 = 1e-4;
+
+/// Until when it is the instant of this time.
+fn end_of_instant(time: f64) -> f64 {
+    time + INSTANT * time.abs().max(1.0)
+}
 
 fn accumulates((_, kind, _): &Happening) -> bool {
     matches!(kind, EventKind::Accumulates { .. })
+}
+
+fn is_mark((_, kind, _): &Happening) -> bool {
+    matches!(kind, EventKind::Mark)
+}
+
+/// Whether the same happens to one item. How many impacts have accumulated depends on the tolerance.
+fn is_same(a: &Happening, b: &Happening) -> bool {
+    a.0 == b.0 && (a.1 == b.1 || accumulates(a) && accumulates(b))
 }
 
 /// The last change of mode of an item.
@@ -163,7 +183,9 @@ impl Summary {
     fn compare_events(&self, other: &Summary) -> (Vec<f64>, Option<f64>, Option<Parting>) {
         let (mut i, mut k) = (0, 0);
         let (mut differences, mut largest): (Vec<f64>, Option<f64>) = (Vec::new(), None);
+        let mut other = other.clone();
         loop {
+            other.bring_forward(k, self, i);
             let (here, there) = (self.events.get(i), other.events.get(k));
             let ends =
                 |event: Option<&Happening>| event.filter(|e| accumulates(e)).map(|e| (e.0, e.2));
@@ -180,7 +202,7 @@ impl Summary {
                 let apart = self.events[event].2 - other.events[counterpart].2;
                 ((i_next, k_next), apart.abs(), self.events[event].2)
             });
-            let next = next.or_else(|| self.last_turns(i, other, k));
+            let next = next.or_else(|| self.last_turns(i, &other, k));
             let Some(((i_next, k_next), apart, time)) = next else {
                 let parting = (here.is_some() || there.is_some()).then(|| Parting {
                     time: here.or(there).map_or(self.time, |event| event.2),
@@ -194,6 +216,40 @@ impl Summary {
             largest = Some(largest.map_or(error, |largest| largest.max(error)));
             (i, k) = (i_next, k_next);
         }
+    }
+
+    /// Brings the counterpart of event `i` of another run forward to place `k`, if something else stands there that has a counterpart too.
+    fn bring_forward(&mut self, k: usize, other: &Summary, i: usize) {
+        let heads = self.events.get(k).zip(other.events.get(i));
+        if heads.is_none_or(|(a, b)| is_same(a, b)) || other.counterpart(i, self, k).is_none() {
+            return;
+        }
+        if let Some(found) = self.counterpart(k, other, i) {
+            self.events[k..=found].rotate_right(1);
+        }
+    }
+
+    /// Where this run has, from event `from` on, event `at` of another one: each is the nearest to the other. It may come after what happens to others at
+    /// the same instant, and a mark after anything, and anything after marks.
+    fn counterpart(&self, from: usize, other: &Summary, at: usize) -> Option<usize> {
+        let event = &other.events[at];
+        let found = self.nearest(from, event)?;
+        let mut passed = self.events[from..found].iter();
+        let instant = |e: &Happening| self.events[found].2 <= end_of_instant(e.2);
+        let may_come_first = |e: &Happening| is_mark(event) || is_mark(e) || instant(e);
+        let is_mutual = other.nearest(at, &self.events[found]) == Some(at);
+        (is_mutual && passed.all(may_come_first)).then_some(found)
+    }
+
+    /// Of what is the same as this event, from `from` on, the nearest in time: as times ascend, distances fall and then rise.
+    fn nearest(&self, from: usize, event: &Happening) -> Option<usize> {
+        let off = |at: usize| (self.events[at].2 - event.2).abs();
+        let mut same = (from..self.events.len()).filter(|&at| is_same(&self.events[at], event));
+        let mut nearest = same.next()?;
+        while let Some(next) = same.next().filter(|&next| off(next) < off(nearest)) {
+            nearest = next;
+        }
+        Some(nearest)
     }
 
     /// The end of infinitely many impacts from event `from` on that is nearest to that of a contact in another run, and the first event after
@@ -224,8 +280,7 @@ impl Summary {
     ) -> Option<((usize, usize), f64, f64)> {
         let first = [self.events.get(i), other.events.get(k)];
         let begin = first.into_iter().flatten().map(|event| event.2);
-        let begin = begin.min_by(f64::total_cmp)?;
-        let until = begin + LAST_TURNS * begin.abs().max(1.0);
+        let until = end_of_instant(begin.min_by(f64::total_cmp)?);
         let (i_next, k_next) = (self.after_turns(i, until), other.after_turns(k, until));
         let (here, there) = (&self.events[..i_next], &other.events[..k_next]);
         let told = || here[i..].iter().chain(&there[k..]);

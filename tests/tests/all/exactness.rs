@@ -93,6 +93,116 @@ fn an_error_that_is_asked_for_holds_against_the_closed_form() {
     }
 }
 
+/// Bodies on springs, x = cos rate t, z = 2 cos rate t and y = -1.5 cos rate t, are in the middle at one instant, which a clock tells too.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, z, y),
+    kinetic = (der(x)^2 + der(z)^2 + der(y)^2) / 2,
+    potential = rate^2 / 2 * (x^2 + z^2 + y^2),
+    contact(left: x >= 0, restitution = 1),
+    contact(right: z >= 0, restitution = 1),
+    mark(clock: t - quarter),
+    mark(middle: y),
+    start(pulled: x = 1, z = 2, y = -1.5),
+    emit = data,
+)]
+struct Pair {
+    rate: f64,
+    quarter: f64,
+}
+
+#[test]
+fn what_happens_at_one_instant_may_be_told_in_any_order() {
+    for rate in [0.7, 1.1, 1.9] {
+        let quarter = core::f64::consts::FRAC_PI_2 / rate;
+        let scene = Pair { rate, quarter };
+        for method in ["auto", "dop853", "verner98", "radau5", "rk4:0.01"] {
+            let method: Method = method.parse().expect("a method");
+            let simulation = Simulation::new(&scene).method(method);
+            let run = |simulation: Simulation<Pair>| {
+                simulation.run(scene.at(Pair::PULLED), 0.0..2.5 * quarter)
+            };
+            let within = run(simulation.clone().error(1e-8))
+                .unwrap_or_else(|failure| panic!("{rate} {method}: {failure}"));
+            let estimated = run(simulation.tolerance(1e-7).estimate(true)).expect("runs");
+            for (run, error) in [(within, 1e-8), (estimated, 1e-5)] {
+                let difference = &run.estimate().expect("was asked for").difference;
+                assert_eq!(difference.parting, None, "{rate} {method}");
+                assert!(
+                    difference.error() <= error,
+                    "{rate} {method}: {}",
+                    difference.error()
+                );
+                assert_eq!(difference.events.len(), run.events().len());
+                assert_eq!(run.events().len(), 4, "{rate} {method}");
+                for event in run.events() {
+                    agree("instant", event.time, quarter, error);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn what_only_one_run_has_or_at_another_instant_parts_them() {
+    use Subject::{Contact, Mark};
+    let scene = Pair {
+        rate: 1.0,
+        quarter: 9.0,
+    };
+    let run = Simulation::new(&scene).run(scene.at(Pair::PULLED), 0.0..0.1);
+    let run = run.expect("runs");
+    let summary = |events: &[(Subject, f64)]| {
+        let kind = |subject| match subject {
+            Mark(_) => EventKind::Mark,
+            _ => EventKind::Impact,
+        };
+        let events = events.iter().map(|&(s, time)| (s, kind(s), time));
+        Summary {
+            events: events.collect(),
+            ..Summary::of(&run)
+        }
+    };
+    let told = |events: &[Subject; 3], times: [f64; 3]| {
+        let events = events.iter().copied().zip(times);
+        summary(&events.collect::<Vec<_>>())
+    };
+    let (clock, left, right) = (Mark(0), Contact(0), Contact(1));
+    let here = told(&[left, right, left], [1.0, 1.0 + 1e-9, 2.0]);
+    let marked = told(&[clock, left, clock], [1.0, 1.0 + 1e-9, 2.0]);
+    // The order of impacts at one instant, and that of marks and impacts.
+    for (here, other, exact) in [
+        (
+            &here,
+            told(&[right, left, left], [1.0, 1.0 + 3e-9, 2.0]),
+            [3e-9, 1e-9, 0.0],
+        ),
+        (
+            &marked,
+            told(&[left, clock, clock], [0.9, 1.2, 2.0]),
+            [0.2, 0.1 + 1e-9, 0.0],
+        ),
+    ] {
+        let difference = here.compare(&other);
+        assert_eq!(difference.parting, None);
+        for (found, exact) in difference.events.iter().zip(exact) {
+            agree("difference", *found, exact, 1e-15);
+        }
+    }
+    // Impacts at other instants, and what the other run has not, or has twice.
+    for (here, other, time) in [
+        (&here, told(&[right, left, left], [0.9, 1.2, 2.0]), 1.0),
+        (&here, summary(&[(right, 1.0), (left, 2.0)]), 1.0),
+        (&here, summary(&[(right, 1.0), (left, 1.0)]), 2.0),
+        (&here, told(&[right, right, left], [1.0, 1.0, 1.0]), 2.0),
+        (&marked, summary(&[(left, 1.0), (clock, 2.0)]), 1.0),
+        (&marked, summary(&[(left, 1.0), (clock, 1.0)]), 2.0),
+    ] {
+        let parting = here.compare(&other).parting.expect("they part");
+        agree("parting", parting.time, time, 1e-15);
+    }
+}
+
 #[test]
 fn an_estimate_is_the_error() {
     let scene = Spring {};

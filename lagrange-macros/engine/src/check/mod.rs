@@ -9,7 +9,7 @@
 //!
 //! A claim that vanishes at the points of all modes is proven (but for a probability below 2^-120); one that differs is
 //! refuted by a state. What is neither — functions whose values may depend on each other, equations that are not
-//! solved — has been tested numerically, and is said to.
+//! solved — has been tested numerically, and is said to. What could not be tested either is a mistake: nothing is known of it.
 
 mod arithmetic;
 mod bounded;
@@ -162,6 +162,10 @@ impl Prover<'_> {
             }
         }
         let outcome = match tested {
+            Some((0, because)) if proven == 0 => {
+                sink.report(Code::CheckUntried, check.extent, &[&check.text, &because]);
+                return None;
+            }
             Some((states, because)) => Outcome::Tested { states, because },
             None if proven > 0 => Outcome::Proven { modes: proven },
             None => {

@@ -12,6 +12,8 @@ pub(super) enum Search {
     Counterexample(String),
     /// No difference at this many states.
     Nothing(usize),
+    /// No state, because the mode does not determine this.
+    Undetermined(Symbol),
 }
 
 /// A state with both sides.
@@ -36,7 +38,7 @@ pub(super) fn search(
     certain: bool,
 ) -> Search {
     let sides = [check.left, check.right].map(|e| pool.substitute(e, applied));
-    let mut states = 0;
+    let (mut states, mut undetermined) = (0, None);
     let mut ratios: Vec<f64> = Vec::new();
     let mut first: Option<Found> = None;
     // For a difference that is certain but small: the state that shows most of it.
@@ -53,11 +55,13 @@ pub(super) fn search(
         };
         let (left, right) = (values[0], values[1]);
         let is_open = |symbol: &Symbol| sides.iter().any(|&e| pool.depends_on(e, *symbol));
-        if state.undetermined.iter().any(is_open) {
-            continue;
-        }
+        let open = state.undetermined.iter().copied().find(is_open);
         let found = Found { state, left, right };
         let differs = found.excess() > 1.0;
+        if differs && open.is_some() {
+            undetermined = open;
+            continue;
+        }
         if found.state.feasible {
             states += 1;
             if differs {
@@ -90,7 +94,10 @@ pub(super) fn search(
         None if certain => Search::Counterexample(
             "the difference shows in exact arithmetic; no state to show it was found".to_owned(),
         ),
-        None => Search::Nothing(states),
+        None => match undetermined {
+            Some(symbol) if states == 0 => Search::Undetermined(symbol),
+            _ => Search::Nothing(states),
+        },
     }
 }
 

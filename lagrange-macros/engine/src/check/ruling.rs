@@ -10,7 +10,8 @@ use super::sample::{Newton, Positions, Region};
 use super::surface::{Sheet, Surface, surface, ties};
 use crate::model::{Check, Premise};
 use crate::modes::Mode;
-use crate::symbolic::{ExprId, Pool};
+use crate::sorted::SortedSet;
+use crate::symbolic::{ExprId, Pool, Symbol};
 
 /// What one mode says.
 pub(super) enum Ruling {
@@ -80,6 +81,10 @@ impl Prover<'_> {
         match refute::search(pool, &region, check, applied, findings.certain) {
             refute::Search::Counterexample(text) => Ruling::Refuted(text),
             refute::Search::Nothing(states) => Ruling::Tested(states, because),
+            refute::Search::Undetermined(symbol) => {
+                let name = pool.name(symbol);
+                Ruling::Tested(0, format!("the mode does not determine `{name}`"))
+            }
         }
     }
 
@@ -109,11 +114,18 @@ impl Prover<'_> {
         let rows = active.iter();
         let equations = rows.filter_map(|&row| self.mechanics.rows[row].position);
         let speeds: Vec<_> = self.mechanics.coordinates.iter().map(|q| q[1]).collect();
-        let still = zeros.iter().filter(|&&e| !pool.depends_on_any(e, &speeds));
-        let equations: Vec<ExprId> = equations.chain(still.copied()).collect();
+        let conditions = zeros.iter().copied();
+        let conditions = conditions.filter(|&e| !pool.depends_on_any(e, &speeds));
+        let conditions: Vec<ExprId> = conditions.collect();
+        let places = self.mechanics.coordinates.iter().map(|q| q[0]);
+        let mut unknowns: Vec<_> = places.collect();
+        unknowns.extend(bound(pool, self.system.time, &conditions, &unknowns));
+        let equations: Vec<ExprId> = equations.chain(conditions).collect();
         let slopes = equations.iter().map(|&e| {
-            let places = self.mechanics.coordinates.iter();
-            places.map(|q| pool.differentiate(e, q[0])).collect()
+            let unknowns = unknowns.iter();
+            unknowns
+                .map(|&unknown| pool.differentiate(e, unknown))
+                .collect()
         });
         let slopes = slopes.collect();
         self.prepared.push(Prepared {
@@ -121,7 +133,11 @@ impl Prover<'_> {
             zeros,
             surface,
             mechanics: substituted,
-            newton: Newton { equations, slopes },
+            newton: Newton {
+                equations,
+                unknowns,
+                slopes,
+            },
         });
         self.prepared.len() - 1
     }
@@ -159,6 +175,16 @@ impl Findings {
         }
         self.has_states = true;
     }
+}
+
+/// What conditions may bind beside the places: the time, and all that stands in a condition in which no place does.
+fn bound(pool: &Pool, time: Symbol, conditions: &[ExprId], places: &[Symbol]) -> SortedSet<Symbol> {
+    let placeless = conditions.iter().copied();
+    let placeless = placeless.filter(|&e| !pool.depends_on_any(e, places));
+    let bound = placeless.flat_map(|e| pool.symbols(e));
+    bound
+        .chain((!conditions.is_empty()).then_some(time))
+        .collect()
 }
 
 /// Ties on a sheet.

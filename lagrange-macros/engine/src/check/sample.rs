@@ -34,9 +34,12 @@ pub(super) enum Positions<'a> {
     Iterated(&'a Newton),
 }
 
-/// Equations and their derivatives with respect to the coordinates.
+/// Equations and their derivatives.
 pub(super) struct Newton {
     pub equations: Vec<ExprId>,
+    /// Coordinates, and what conditions bind beside them.
+    pub unknowns: Vec<Symbol>,
+    /// Per equation and unknown.
     pub slopes: Vec<Vec<ExprId>>,
 }
 
@@ -69,13 +72,9 @@ pub(super) fn sample<'a>(pool: &Pool, region: &Region<'a>, seed: u64) -> Result<
         even if even.is_multiple_of(2) => 0.6,
         _ => 2.0,
     };
-    for &[q, v, a] in &mechanics.coordinates {
+    for &[q, v, _] in &mechanics.coordinates {
         numbers.bind(q, two_digits(&mut random, -reach, reach));
         numbers.bind(v, two_digits(&mut random, -reach, reach));
-        numbers.bind(a, Bounded::exactly(0.0));
-    }
-    for row in &mechanics.rows {
-        numbers.bind(row.force, Bounded::exactly(0.0));
     }
     let speeds: Vec<Symbol> = mechanics.coordinates.iter().map(|q| q[1]).collect();
     let moves = |e: ExprId| pool.depends_on_any(e, &speeds);
@@ -100,6 +99,11 @@ pub(super) fn sample<'a>(pool: &Pool, region: &Region<'a>, seed: u64) -> Result<
                 }
             }
         }
+    }
+    // What the mode does not determine may be anything, and fulfils by chance no claim that depends on it.
+    let accelerations_and_forces = mechanics.coordinates.iter().map(|q| q[2]);
+    for symbol in accelerations_and_forces.chain(mechanics.rows.iter().map(|row| row.force)) {
+        numbers.bind(symbol, Bounded::exactly(0.3 + random.f64()));
     }
     let undetermined = accelerations(&mut numbers, pool, mechanics, region.mode)?;
     for premise in region.premises {
@@ -135,31 +139,24 @@ fn iterate(
 ) -> Result<(), Stuck> {
     const STEPS: usize = 30;
     const CLOSE: f64 = 1e-13;
-    let places: Vec<Symbol> = mechanics.coordinates.iter().map(|q| q[0]).collect();
     let slopes: Vec<ExprId> = newton.slopes.iter().flatten().copied().collect();
     let plain = |values: Vec<Bounded>| values.into_iter().map(|b| Bounded::exactly(b.value));
     for _ in 0..STEPS {
         let defects: Vec<Bounded> = plain(numbers.values(pool, &newton.equations)?).collect();
         let slopes: Vec<Bounded> = plain(numbers.values(pool, &slopes)?).collect();
-        let rows: Vec<&[Bounded]> = slopes.chunks(places.len()).collect();
-        let dot = |a: &[Bounded], b: &[Bounded]| {
-            let sum: f64 = a.iter().zip(b).map(|(a, b)| a.value * b.value).sum();
-            Bounded::exactly(sum)
-        };
-        let gram = rows.iter().zip(&defects).map(|(row, defect)| {
-            let products = rows.iter().map(|other| dot(row, other));
-            products.chain([*defect]).collect()
-        });
-        let zeros = vec![Bounded::exactly(0.0); rows.len()];
-        let weights = solve(numbers, gram.collect(), &zeros)?.ok_or(Stuck::Impossible)?;
+        let rows: Vec<&[Bounded]> = slopes.chunks(newton.unknowns.len()).collect();
+        let weights = weights(numbers, &rows, &defects)?;
         let mut largest: f64 = 0.0;
-        for (j, &place) in places.iter().enumerate() {
-            let rows = rows.iter().zip(&weights.x);
+        for (j, &unknown) in newton.unknowns.iter().enumerate() {
+            let rows = rows.iter().zip(&weights);
             let change: f64 = rows.map(|(row, y)| row[j].value * y.value).sum();
-            let value = numbers.symbol(place).value - change;
+            let value = numbers.symbol(unknown).value - change;
             largest = largest.max(change.abs() / (1.0 + value.abs()));
+            if mechanics.parameters.contains(&unknown) && value <= 0.0 {
+                return Err(Trouble::NotSquare.into());
+            }
             numbers.bind(
-                place,
+                unknown,
                 Bounded {
                     value,
                     error: CLOSE * (1.0 + value.abs()),
@@ -167,10 +164,47 @@ fn iterate(
             );
         }
         if largest < 0.1 * CLOSE {
-            return Ok(());
+            // Equations that contradict each other have a nearest point too.
+            let defects = numbers.values(pool, &newton.equations)?;
+            return match defects.iter().all(|&defect| numbers.size(defect) == 0.0) {
+                true => Ok(()),
+                false => Err(Stuck::Impossible),
+            };
         }
     }
     Err(Trouble::Division.into())
+}
+
+/// y of the least change −Jᵀy that takes the defects away: J Jᵀ y = defects. Where rows of J depend on one another, J Jᵀ is damped (Levenberg 1944), which
+/// leaves out what no change takes away.
+fn weights(
+    numbers: &Floating,
+    rows: &[&[Bounded]],
+    defects: &[Bounded],
+) -> Result<Vec<Bounded>, Stuck> {
+    let zero = Bounded::exactly(0.0);
+    let dot = |a: &[Bounded], b: &[Bounded]| {
+        let products = a.iter().zip(b).map(|(&a, &b)| numbers.mul(a, b));
+        products.fold(zero, |sum, product| numbers.add(sum, product))
+    };
+    let gram = rows.iter().zip(defects).map(|(row, &defect)| {
+        let products = rows.iter().map(|other| dot(row, other));
+        products.chain([defect]).collect()
+    });
+    let mut gram: Vec<Vec<Bounded>> = gram.collect();
+    let zeros = vec![zero; rows.len()];
+    if let Some(solution) = solve(numbers, gram.clone(), &zeros)?
+        && solution.rank == rows.len()
+    {
+        return Ok(solution.x);
+    }
+    let trace: f64 = (0..rows.len()).map(|i| gram[i][i].value).sum();
+    let damping = Bounded::exactly(f64::EPSILON.sqrt() * trace);
+    for i in 0..rows.len() {
+        gram[i][i] = numbers.add(gram[i][i], damping);
+    }
+    let damped = solve(numbers, gram, &zeros)?.ok_or(Stuck::Impossible)?;
+    Ok(damped.x)
 }
 
 fn feasible(pool: &Pool, region: &Region, numbers: &mut Floating) -> Result<bool, Stuck> {

@@ -2,8 +2,8 @@
 //!
 //! A symbol is chosen that makes the solution simple: a coordinate that occurs alone (r = R + a), a field that occurs
 //! linearly (the lengths of a closed linkage), a coordinate that does, and last the roots of a quadratic equation (l of
-//! x² + y² = l²; fields are positive). Every solution is then a rational map (with roots) from free symbols onto the
-//! surface, so a random point of these is a random point of it.
+//! x² + y² = l²; fields are positive). What no coordinate occurs in may be solved for the time. Every solution is
+//! then a rational map (with roots) from free symbols onto the surface, so a random point of these is a random point of it.
 
 use super::mechanics::Mechanics;
 use super::motion::Tie;
@@ -222,7 +222,11 @@ fn solution(
     e: ExprId,
     angular: &SortedSet<Symbol>,
 ) -> Option<(Symbol, Vec<ExprId>)> {
-    let places: Vec<Symbol> = mechanics.coordinates.iter().map(|q| q[0]).collect();
+    let mut places: Vec<Symbol> = mechanics.coordinates.iter().map(|q| q[0]).collect();
+    // A condition on the time alone chooses an instant, as one on a coordinate chooses a place.
+    if !pool.depends_on_any(e, &places) {
+        places.push(mechanics.system.time);
+    }
     let mut best: Option<(u8, Symbol, Vec<ExprId>)> = None;
     for symbol in pool.symbols(e) {
         let is_place = places.contains(&symbol);

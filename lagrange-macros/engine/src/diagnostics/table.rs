@@ -157,6 +157,7 @@ table! {
     CheckModes "E803" "the condition leaves {0} modes open" "say of more contacts whether they are `open` or `closed`; `open(name)` of an indexed contact means all its elements that are not named otherwise";
     CheckPremise "E804" "`{0}` is known after the equations are solved" "the condition of a check is made of positions, velocities, `closed(…)`, `open(…)`, `sticks(…)` and `slips(…)`";
     CheckSlips "E805" "`{0}` may slip here, pressed by several constraints together" "no check follows that: say `sticks({0})` in the condition, and compare numbers of a run in a test";
+    CheckUntried "E806" "`{0}` is not proven, and could be tried at no state" "{1}; say more of the state in the condition, or compare numbers of a run in a test";
 
     UnknownForm "E901" "`{0}` is not the name of a form" "{1}";
     PlaceCount "E902" "`{0}` takes {1}, not {2}" "places are joined by `to`";

@@ -1,6 +1,6 @@
 //! Closed linkages, quaternions, friction of all kinds, piecewise and inverse functions, roots, mistakes in conditions.
 
-use super::{judged, proven, refuted, tested};
+use super::{judged, proven, refuted, tested, untried};
 
 const SHELL: &str = "coordinates(r, theta), define(x = r*sin(theta), y = r*cos(theta)),
     kinetic = m/2*(der(x)^2 + der(y)^2), potential = m*g*y, contact(shell: r >= radius)";
@@ -336,7 +336,74 @@ fn forces_that_the_mode_does_not_determine() {
         "m i g l",
         &format!("left + middle + right == m*g when {closed}"),
     );
-    tested(table, "m i g l", &format!("left == m*g/3 when {closed}"));
+    untried(table, "m i g l", &format!("left == m*g/3 when {closed}"));
+}
+
+#[test]
+fn a_condition_binds_the_time() {
+    let (fields, plate) = (
+        "m g a w",
+        "coordinates(x, y), kinetic = m/2*(der(x)^2 + der(y)^2), potential = m*g*y, contact(plate: y >= a*cos(w*t))",
+    );
+    let above = "closed(plate) and t == 0";
+    proven(
+        plate,
+        fields,
+        &format!("plate == m*(g - a*w^2) when {above}"),
+    );
+    let found = refuted(
+        plate,
+        fields,
+        &format!("plate == m*(g + a*w^2) when {above}"),
+    );
+    assert!(found.contains("t = 0, y ="), "{found}");
+    proven(
+        plate,
+        fields,
+        "plate == m*g when closed(plate) and t == pi/(2*w)",
+    );
+    refuted(plate, fields, "plate == m*(g - a*w^2) when closed(plate)");
+    // Where positions are found by iteration, so is the time.
+    tested(plate, fields, "plate == m*g when closed(plate) and y == 0");
+    refuted(
+        plate,
+        fields,
+        "plate == m*g when closed(plate) and y == a/2",
+    );
+    // On a curve that moves along x, d/dt F(x - t, y) = 0.
+    let curve = "coordinates(x, y), kinetic = m/2*(der(x)^2 + der(y)^2), constraint(wave: x - t + sin(x - t) + y + sin(y) == 1)";
+    let slope = "(1 + cos(x - 2))*(der(x) - 1) + (1 + cos(y))*der(y)";
+    tested(curve, "m", &format!("{slope} == 0 when t == 2"));
+    refuted(curve, "m", &format!("{slope} == 0 when t == 3"));
+}
+
+#[test]
+fn iterated_rows_that_depend_on_one_another() {
+    let twice = |second: &str| {
+        let plane = "coordinates(x, y), kinetic = m/2*(der(x)^2 + der(y)^2)";
+        format!("{plane}, contact(a: x + sin(x) + y + sin(y) <= 1), contact(b: {second})")
+    };
+    let same = twice("2*x + 2*sin(x) + 2*y + 2*sin(y) <= 2");
+    let closed = "closed(a) and closed(b)";
+    // Newton's law, with normals along the gradients of the gaps.
+    tested(
+        &same,
+        "m",
+        &format!("m*der(der(x)) == -(a + 2*b)*(1 + cos(x)) when {closed}"),
+    );
+    tested(
+        &same,
+        "m",
+        &format!("x + sin(x) == 1 - y - sin(y) when {closed}"),
+    );
+    refuted(
+        &same,
+        "m",
+        &format!("x + sin(x) == 1 + y + sin(y) when {closed}"),
+    );
+    untried(&same, "m", &format!("a == b when {closed}"));
+    let contrary = twice("2*x + 2*sin(x) + 2*y + 2*sin(y) >= 3");
+    untried(&contrary, "m", &format!("x == y when {closed}"));
 }
 
 #[test]

@@ -51,3 +51,12 @@ pub fn refuted(items: &str, fields: &str, claim: &str) -> String {
     );
     found[0].clone()
 }
+
+#[track_caller]
+pub fn untried(items: &str, fields: &str, claim: &str) {
+    let found = judged(items, fields, &format!("check({claim})"));
+    assert!(
+        found.len() == 1 && found[0].contains("E806"),
+        "{claim}: {found:?}"
+    );
+}
