@@ -49,7 +49,9 @@ impl<T: Scalar> Run<T> {
         }
         let composites = &mut self.locator.polynomials.composites;
         composites.iter_mut().for_each(|c| c.falls_after = None);
+        self.locator.vanishing.clear();
         let hit = self.accepted_step()?;
+        let hit = self.stop_where_guards_fall(hit);
         self.check_resolution()?;
         let end = self.take_step(&hit)?;
         if end > 0.0 {
@@ -114,6 +116,7 @@ impl<T: Scalar> Run<T> {
         let refused = self.friction_that_pushes(end).or(undirected);
         if let Some((first, _)) = &refused {
             (end, exact) = (*first, T::from_f64(*first));
+            self.locator.vanishing.clear();
         }
         // Also a step that ends where it begins may move derivatives.
         let moves = exact != T::zero();

@@ -62,6 +62,8 @@ pub(super) struct Locator<T> {
     /// Per mark, when it was passed last.
     pub(super) mark_times: Vec<f64>,
     pub(super) marks: Vec<(usize, f64)>,
+    /// Terms of stops and marks that vanish where guards fall at the end of the present step, with the size up to which they count as zero there.
+    pub(super) vanishing: Vec<(Guard, f64)>,
     /// Terms of stops and marks that rounding alone changes.
     pub(super) still: StillWatches,
 }
@@ -97,6 +99,7 @@ impl<T: Scalar> Locator<T> {
             mark_passed: vec![None; d.marks.len()],
             mark_times: vec![f64::NEG_INFINITY; d.marks.len()],
             marks: Vec::new(),
+            vanishing: Vec::new(),
             still: StillWatches::new(),
         }
     }
@@ -125,6 +128,7 @@ impl<T: Scalar> Locator<T> {
             mark_passed,
             mark_times,
             marks,
+            vanishing,
             still,
         } = self;
         polynomials.restart();
@@ -144,6 +148,7 @@ impl<T: Scalar> Locator<T> {
         mark_passed.fill(None);
         mark_times.fill(f64::NEG_INFINITY);
         marks.clear();
+        vanishing.clear();
         still.restart();
     }
 
@@ -266,14 +271,23 @@ impl<T: Scalar> Run<T> {
         {
             return Some((0.0, 0.0));
         }
-        let (s, width) = find_root_until(curve, until, |root| {
+        let happens = |s: f64| !self.is_held_at(guard, s) && self.within_region(guard, s);
+        let mut latest = 0.0;
+        let root = find_root_until(curve, until, |root| {
             let falls = root.direction == Direction::Falling && !root.grazing;
             let (s, width) = self.place(guard, &root);
-            match falls && !self.is_held_at(guard, s) && self.within_region(guard, s) {
+            latest = s;
+            match falls && happens(s) {
                 true => Break((s, width)),
                 false => Continue(()),
             }
-        })?;
+        });
+        let falls_last = || {
+            let at_end = self.locator.polynomials.end_of(guard)?;
+            let passes = self.passes_last(guard, until, curve, at_end, latest);
+            (passes && slope(curve, 1.0) < 0.0 && happens(1.0)).then_some((1.0, 0.0))
+        };
+        let (s, width) = root.or_else(falls_last)?;
         Some((self.with_residues(guard, whole, s), width))
     }
 

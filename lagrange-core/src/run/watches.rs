@@ -1,11 +1,13 @@
 //! Stops and marks: where their terms rise through zero in a step, and which become true with a switch.
 
 use super::Run;
+use super::guard_polynomials::Located;
+use super::hit::Hit;
 use super::instant::nearest;
 use crate::arithmetic::{Scalar, epsilon};
 use crate::dynamics::OutputMask;
 use crate::error::Error;
-use crate::events::{Direction, find_root_until};
+use crate::events::{Direction, Root, find_root_until};
 use crate::integrate::{polynomial_derivative as slope, polynomial_value as value};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
@@ -80,7 +82,7 @@ impl<T: Scalar> Run<T> {
                     known: self.known_zero(curve, below[k], None, resolution),
                 }
             };
-            self.becomes_true(&d.stops[i], end, term, |s| {
+            self.becomes_true(&d.stops[i], [end; 2], term, |s| {
                 if best.is_none_or(|(_, t)| s < t) {
                     best = Some((i, s));
                 }
@@ -118,7 +120,7 @@ impl<T: Scalar> Run<T> {
                 let taken = self.now.mode.satisfies(watch.conditions);
                 let mut latest = 0.0;
                 find_root_until(curve, FARTHER * last, |root| {
-                    let (s, _) = self.place(Guard::Mark(i, 0), &root);
+                    let s = self.place_of_watch(Guard::Mark(i, 0), curve, &root, end);
                     let is_known = known.is_some_and(|until| root.s <= until);
                     if taken && !is_known && s <= last {
                         list.push((i, s.min(end)));
@@ -126,7 +128,8 @@ impl<T: Scalar> Run<T> {
                     }
                     Continue::<(), ()>(())
                 });
-                if taken && self.passes_last(end, curve, curves.mark_end(i, 0), latest) {
+                let at_end = curves.mark_end(i, 0);
+                if taken && self.passes_last(Guard::Mark(i, 0), end, curve, at_end, latest) {
                     list.push((i, end));
                 }
             } else {
@@ -143,7 +146,7 @@ impl<T: Scalar> Run<T> {
                 };
                 // Terms that rise at the same instant make the mark true once.
                 let first = list.len();
-                self.becomes_true(watch, last, term, |s| {
+                self.becomes_true(watch, [end, last], term, |s| {
                     let s = s.min(end);
                     let mut own = list[first..].iter();
                     if !own.any(|(_, other)| (s - other).abs() <= resolution) {
@@ -155,11 +158,12 @@ impl<T: Scalar> Run<T> {
         list.sort_by(|a, b| a.1.total_cmp(&b.1));
     }
 
-    /// Visits the instants up to `end` at which a watch becomes true: a term rises through zero while the others are true.
+    /// Visits the instants up to part `end` of the step, or up to `last` where rounding may have put them, at which a watch becomes true: a term rises
+    /// through zero while the others are true.
     fn becomes_true<'c>(
         &self,
         watch: &Watch,
-        end: f64,
+        [end, last]: [f64; 2],
         term: impl Fn(usize) -> Term<'c>,
         mut visit: impl FnMut(f64),
     ) {
@@ -177,7 +181,7 @@ impl<T: Scalar> Run<T> {
             let others =
                 |s: f64| (0..watch.terms.len()).all(|j| j == k || self.is_true(term(j), s));
             let mut consider = |s: f64| {
-                if s <= end && others(s) {
+                if s <= last && others(s) {
                     visit(s);
                 }
             };
@@ -194,9 +198,9 @@ impl<T: Scalar> Run<T> {
                 continue;
             }
             let mut latest = 0.0;
-            find_root_until(curve, FARTHER * end, |root| {
-                let (s, _) = self.place(guard, &root);
-                if s > end {
+            find_root_until(curve, FARTHER * last, |root| {
+                let s = self.place_of_watch(guard, curve, &root, end);
+                if s > last {
                     return Break(());
                 }
                 latest = s;
@@ -207,8 +211,8 @@ impl<T: Scalar> Run<T> {
                 }
                 Continue(())
             });
-            if self.passes_last(end, curve, at_end, latest) && slope(curve, 1.0) > 0.0 {
-                consider(1.0);
+            if self.passes_last(guard, end, curve, at_end, latest) && slope(curve, end) > 0.0 {
+                consider(end);
             }
         }
     }
@@ -223,19 +227,72 @@ impl<T: Scalar> Run<T> {
         here.any(|event| event.kind == EventKind::Impact)
     }
 
-    /// Whether a curve passes zero with the end of the run, whatever rounding makes of its value there: no step follows that would find that. The
-    /// `latest` of its other zeros is before.
-    fn passes_last(&self, end: f64, curve: &[f64], at_end: f64, latest: f64) -> bool {
+    /// Notes which terms of stops and marks vanish where guards fall, as values tell, which `dynamics` holds there: a slow motion does not resolve the time.
+    fn note_watches_at(&mut self, hit: &Hit) {
+        let falls = matches!(hit, Hit::Guards(end) if *end > 0.0);
+        if !falls || self.locator.polynomials.watches().is_empty() {
+            return;
+        }
+        self.dynamics.report_value();
+        let (curves, mode) = (&self.locator.polynomials, &self.now.mode);
+        for (index, &term) in curves.watches().iter().enumerate() {
+            let within = curves.zero(index, mode, &self.dynamics, Located::Exactly);
+            if curves.value(index, mode, &self.dynamics).abs() <= within {
+                self.locator.vanishing.push((term, within));
+            }
+        }
+    }
+
+    /// What ends the step, which is a stop if that becomes true where guards fall: it ends the run before what they lead to.
+    pub(super) fn stop_where_guards_fall(&mut self, hit: Hit) -> Hit {
+        self.note_watches_at(&hit);
+        if self.locator.vanishing.is_empty() {
+            return hit;
+        }
+        let stop = self.first_stop(hit.end());
+        stop.map_or(hit, |(stop, s)| Hit::Stop(stop, s))
+    }
+
+    /// Whether a guard passes zero with the end of the step at part `end` of it, where its curve is `at_end`, whatever rounding makes of its value there,
+    /// because no step follows that would find that: something else happens where it vanishes, or the run ends. The `latest` of its other zeros is before.
+    pub(super) fn passes_last(
+        &self,
+        guard: Guard,
+        end: f64,
+        curve: &[f64],
+        at_end: f64,
+        latest: f64,
+    ) -> bool {
         let (t, h) = (self.stepper.step.t.value(), self.stepper.step.h.value());
         let resolution = self.resolution_of_time();
-        if end < 1.0 || latest >= 1.0 - resolution || !self.is_spent(self.end - (t + h)) {
+        let is_last = || end >= 1.0 && self.is_spent(self.end - (t + h));
+        let vanishes = match self.vanishes_with_end(guard) {
+            Some(within) => (end - latest) * slope(curve, end).abs() > within,
+            None => is_last() && is_zero(curve, 1.0, at_end, resolution),
+        };
+        if !vanishes || latest >= end - resolution {
             return false;
         }
-        let between = 0.5 * (latest + 1.0);
+        let between = 0.5 * (latest + end);
         let before = value(curve, between);
-        before * slope(curve, 1.0) < 0.0
-            && !is_zero(curve, between, before, resolution)
-            && is_zero(curve, 1.0, at_end, resolution)
+        before * slope(curve, end) < 0.0 && !is_zero(curve, between, before, resolution)
+    }
+
+    /// Where the root of a term is in a step up to part `end`: there, if the term vanishes with what falls there and rounding explains what is between.
+    fn place_of_watch(&self, term: Guard, curve: &[f64], root: &Root, end: f64) -> f64 {
+        let (s, _) = self.place(term, root);
+        let apart = (s - end).abs();
+        let within = self.vanishes_with_end(term).unwrap_or_default();
+        let with_end =
+            apart > self.resolution_of_time() && apart * slope(curve, end).abs() <= within;
+        if with_end { end } else { s }
+    }
+
+    /// If a term vanishes where guards fall: up to which size it counts as zero there, and as much at its root.
+    fn vanishes_with_end(&self, term: Guard) -> Option<f64> {
+        let mut vanishing = self.locator.vanishing.iter();
+        let found = vanishing.find(|(other, _)| *other == term);
+        found.map(|(_, within)| 2.0 * within)
     }
 
     /// Whether a term is true at part `s` of the step or becomes so there, as far as rounding can tell.

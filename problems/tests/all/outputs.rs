@@ -205,6 +205,30 @@ fn energies_are_known_at_switches_and_the_modes_are_in_order() {
     assert!(flight.len() > 10 && flight.iter().all(|e| (e - flight[0]).abs() < 1e-9));
 }
 
+/// A block that is thrown lands without a rebound, and at this instant it is marked that it lies there: m u²/2 and m g h are left of its energy.
+#[test]
+fn energies_are_known_at_a_mark_that_a_switch_makes_true() {
+    let folder = folder("marked switch");
+    let file = "thrown.lagrange";
+    let declared = "parameters(m = 1.5, g = 9.8, height = 0.4, u = 2), coordinates(x, y), \
+        kinetic = m/2 * (der(x)^2 + der(y)^2), potential = m*g*y, contact(floor: y >= height), \
+        mark(lies: closed(floor) and floor >= m*g/2), start(thrown: y = height + 1, der(x) = u), until = 1,";
+    fs::write(folder.join(file), declared).expect("a file");
+    run(&folder, &[file, "--output", "run.csv"]);
+    let table = csv_rows(&folder.join("run.csv"));
+    let marked = ["lies mark", "lies mark (after)"];
+    for name in marked {
+        let mut rows = table
+            .iter()
+            .filter(|row| row.get("event").is_some_and(|event| event == name));
+        let row = rows.next().expect(name);
+        for (energy, value) in [("kinetic", 3.0), ("potential", 5.88)] {
+            let told = row.get(energy).and_then(Value::as_f64).expect(energy);
+            assert!((told - value).abs() < 1e-12, "{name}: {energy} {told}");
+        }
+    }
+}
+
 #[test]
 fn a_parquet_file_says_what_was_run() {
     let folder = folder("metadata");

@@ -178,6 +178,19 @@ impl GuardPolynomials {
         dynamics: &Dynamics<T>,
         located: Located,
     ) -> bool {
+        let zero = self.zero(index, mode, dynamics, located);
+        matches!(self.list[index].guard, Guard::Composite(_))
+            || self.value(index, mode, dynamics).abs() <= zero
+    }
+
+    /// Up to which size guard number `index` counts as zero there.
+    pub(in crate::run) fn zero<T: Scalar>(
+        &self,
+        index: usize,
+        mode: &Mode,
+        dynamics: &Dynamics<T>,
+        located: Located,
+    ) -> f64 {
         let guard = self.list[index].guard;
         let share = match located {
             Located::ByInterpolation(tolerance) if !guard.is_force() => {
@@ -187,8 +200,7 @@ impl GuardPolynomials {
             _ => allowance::<T>(guard, 0.0, true),
         };
         let (c, value) = (self.curve(index), self.value(index, mode, dynamics));
-        let allowed = share * size(value, c) + self.rounding(value.abs(), guard, dynamics);
-        matches!(guard, Guard::Composite(_)) || value.abs() <= allowed
+        share * size(value, c) + self.rounding(value.abs(), guard, dynamics)
     }
 
     /// Two parts of a step between the samples of its guards; nothing where none is sampled.

@@ -219,8 +219,18 @@ impl GuardPolynomials {
         self.of_mode().find(|(g, _)| *g == guard).map(|(_, c)| c)
     }
 
+    /// A guard of the mode where the step ends.
+    pub(super) fn end_of(&self, guard: Guard) -> Option<f64> {
+        self.index_of(guard).map(|index| self.list[index].sums.end)
+    }
+
     fn curve(&self, index: usize) -> &[f64] {
         &self.coefficients[index * self.width..][..self.width]
+    }
+
+    /// The terms of the stops and marks that take part, the first guards of all.
+    pub(super) fn watches(&self) -> &[Guard] {
+        &self.watches
     }
 
     /// Term `k` of stop `i`.

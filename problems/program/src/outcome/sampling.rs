@@ -106,7 +106,7 @@ pub(super) fn curve(
 }
 
 /// The instants just before and just after every event. Of events at one instant only what is before the first and after
-/// the last can be read from the trajectory: nothing for those that follow another state or lead to one.
+/// the last can be read from the trajectory: nothing for other states between them. A mark has the same on both its sides.
 pub(super) fn around(trajectory: &Trajectory) -> Vec<[Option<Sample>; 2]> {
     let mut reader = Reader::new(trajectory);
     let mut around = Vec::with_capacity(trajectory.events().len());
@@ -114,13 +114,20 @@ pub(super) fn around(trajectory: &Trajectory) -> Vec<[Option<Sample>; 2]> {
         let ([first, ..], [.., last]) = (group, group) else {
             continue;
         };
-        let (before, after) = (reader.before(first), reader.after(last));
+        let known = [
+            (&first.before, &first.state, reader.before(first)),
+            (&last.after, &last.state_after, reader.after(last)),
+        ];
+        let side = |[i, k]: [usize; 2], mode: &Mode, state: &State<f64>| {
+            let mut sides = [&known[i], &known[k]].into_iter();
+            let same = sides.find(|(other, there, _)| *other == mode && are_alike(state, there));
+            same.and_then(|(.., sample)| sample.clone())
+        };
         around.extend(group.iter().map(|event| {
-            let begins = event.before == first.before && are_alike(&event.state, &first.state);
-            let ends =
-                event.after == last.after && are_alike(&event.state_after, &last.state_after);
-            let before = before.as_ref().filter(|_| begins);
-            [before, after.as_ref().filter(|_| ends)].map(Option::<&Sample>::cloned)
+            [
+                side([0, 1], &event.before, &event.state),
+                side([1, 0], &event.after, &event.state_after),
+            ]
         }));
     }
     around
