@@ -198,10 +198,10 @@ fn weights(
     {
         return Ok(solution.x);
     }
-    let trace: f64 = (0..rows.len()).map(|i| gram[i][i].value).sum();
+    let trace: f64 = gram.iter().enumerate().map(|(i, row)| row[i].value).sum();
     let damping = Bounded::exactly(f64::EPSILON.sqrt() * trace);
-    for i in 0..rows.len() {
-        gram[i][i] = numbers.add(gram[i][i], damping);
+    for (i, row) in gram.iter_mut().enumerate() {
+        row[i] = numbers.add(row[i], damping);
     }
     let damped = solve(numbers, gram, &zeros)?.ok_or(Stuck::Impossible)?;
     Ok(damped.x)
