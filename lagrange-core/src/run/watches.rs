@@ -282,9 +282,9 @@ impl<T: Scalar> Run<T> {
     fn place_of_watch(&self, term: Guard, curve: &[f64], root: &Root, end: f64) -> f64 {
         let (s, _) = self.place(term, root);
         let apart = (s - end).abs();
-        let within = self.vanishes_with_end(term).unwrap_or_default();
-        let with_end =
-            apart > self.resolution_of_time() && apart * slope(curve, end).abs() <= within;
+        let explained = |within: f64| apart * slope(curve, end).abs() <= within;
+        let with_end = apart > self.resolution_of_time()
+            && self.vanishes_with_end(term).is_some_and(explained);
         if with_end { end } else { s }
     }
 
