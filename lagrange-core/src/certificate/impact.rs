@@ -143,7 +143,13 @@ impl<T: Scalar> Examination<'_, T> {
         let (equations, findings) = (&mut self.equations, &mut self.findings);
         let (time, impulses) = (jump.time, &jump.impulses);
         for (f, friction) in equations.d.frictions.iter().enumerate() {
-            if let Normal::Given(_) = friction.normal {
+            // What follows one another, in turn or by Poisson's law, may push a constraint either way: of that the sum says nothing.
+            let is_told = match friction.normal {
+                Normal::Contact(_) => true,
+                Normal::Constraint(_) | Normal::Resultant(_) => jump.exact,
+                Normal::Given(_) => false,
+            };
+            if !is_told {
                 continue;
             }
             let (rows, name) = (friction.rows(), friction.name);
