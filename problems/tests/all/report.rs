@@ -317,6 +317,27 @@ fn a_page_has_the_cause_of_a_failure() {
     assert!(page.contains(cause), "{told}");
 }
 
+/// What the certificate refuses stands above all else on the page.
+#[test]
+fn a_page_says_at_its_top_that_a_run_is_not_certified() {
+    let page = folder("report-loose").join("crank.html");
+    let run = [
+        "report",
+        "slider-crank",
+        "--method",
+        "rk4:0.02",
+        "--tolerance",
+        "1e-6",
+    ];
+    let ended = lagrange(&[&run[..], &["--output", path(&page)]].concat());
+    assert_eq!(ended.status.code(), Some(1));
+    let page = std::fs::read_to_string(&page).expect("the page");
+    assert!(
+        page.contains("<p class=\"failure\">Not certified: "),
+        "{page}"
+    );
+}
+
 /// On one picture scale, with the distance from the first run: 0 while both stick, exact to what a page shows.
 #[test]
 fn runs_of_a_scene_are_compared() {

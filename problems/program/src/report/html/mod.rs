@@ -128,12 +128,12 @@ fn section((index, run): (usize, &Shown), several: bool) -> String {
     let title = escaped(&run.title);
     let summary = run.film.outcome.description.documentation.trim();
     let summary = escaped(summary.lines().next().unwrap_or_default().trim());
-    let failure = run.failure.as_ref().map(|told| {
-        format!(
-            "<p class=\"failure\"><strong>The run failed:</strong> {}</p>\n",
-            escaped(told)
-        )
-    });
+    let certificate = run.film.outcome.certificate.as_ref();
+    let falls_short = certificate.filter(|certificate| !certificate.holds());
+    let failed = |told| format!("<strong>The run failed:</strong> {}", escaped(told));
+    let failure = (run.failure.as_deref().map(failed))
+        .or(falls_short.map(|certificate| escaped(&certificate.to_string())));
+    let failure = failure.map(|told| format!("<p class=\"failure\">{told}</p>\n"));
     let failure = failure.unwrap_or_default();
     let level = if several { "h2" } else { "h1" };
     let mut equations = equations::equations(run);
