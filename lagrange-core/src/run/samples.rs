@@ -160,6 +160,8 @@ impl<T: Scalar> Run<T> {
     fn sharpened(&mut self, index: usize, root: &Root) -> Option<f64> {
         /// A root is no farther from that of the interpolation than this share of its part of the step.
         const NEAR: f64 = 0.1;
+        /// What is left of a guard is rounding where it moves the root by no more than this share of that.
+        const SHARP: f64 = 1e-10;
         /// Secants that come closer make a guard smaller by this factor at least.
         const CLOSER: f64 = 0.1;
         const MOST_PROBES: usize = 12;
@@ -194,7 +196,13 @@ impl<T: Scalar> Run<T> {
                 .locator
                 .polynomials
                 .rounding(size, guard, &self.dynamics);
-            if size <= rounding || (s - nearest.0).abs() <= 2.0 * f64::EPSILON * s {
+            // Where a guard hardly passes zero rounding leaves more than that.
+            let there = if size <= rounding {
+                SHARP
+            } else {
+                2.0 * f64::EPSILON
+            };
+            if (s - nearest.0).abs() <= there * s {
                 return Some(s);
             }
             let value = guard_at(self, s)?;
