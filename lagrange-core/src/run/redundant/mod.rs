@@ -150,7 +150,7 @@ impl<T: Scalar> Run<T> {
         // Located by the forces themselves: roots of others before it are those of weights that belong to another instant.
         if let (Some(k), Some(composite), Some(value)) = (fallen, &critical, value)
             && composites[k].falls_after.is_some()
-            && value.abs() <= ROOT
+            && value <= ROOT
         {
             composites[k].parts.clone_from(&composite.parts);
             return false;
@@ -313,23 +313,30 @@ impl<T: Scalar> Run<T> {
     /// Locates where between these parts of the step forces cease to keep all bounds, and adds the composite guard that says so; `dynamics` and
     /// `scratch` end at part `end` again. Not found: they do not keep them at the first part either.
     fn locates_a_joint(&mut self, [mut before, mut after]: [f64; 2], end: f64) -> bool {
-        let critical_at = |run: &mut Self, part: f64, border: f64| {
+        let critical_at = |run: &mut Self, part: f64| {
             let known = run.follows_forces_to(part);
-            known.then(|| run.switcher.redundant.critical(border))?
+            let critical = known.then(|| run.switcher.redundant.critical(BORDER))?;
+            let value = critical
+                .as_ref()
+                .map(|composite| run.joint_value(composite));
+            critical.zip(value)
         };
-        if critical_at(self, before, -ROOT).is_none() {
+        let mut located = None;
+        if critical_at(self, before).is_none_or(|(_, value)| value >= -ROOT) {
             while after - before > 2.0 * f64::EPSILON * after {
                 let middle = 0.5 * (before + after);
                 if middle <= before || middle >= after {
                     break;
                 }
-                match critical_at(self, middle, 0.0) {
-                    Some(_) => after = middle,
-                    None => before = middle,
+                match critical_at(self, middle) {
+                    Some((composite, value)) if value < 0.0 => {
+                        (after, located) = (middle, Some(composite));
+                    }
+                    _ => before = middle,
                 }
             }
         }
-        let located = critical_at(self, after, BORDER);
+        let located = located.or_else(|| Some(critical_at(self, after)?.0));
         let falls_after = Some(after * self.stepper.step.h.value());
         let located = located.map(|composite| CompositeGuard {
             falls_after,
