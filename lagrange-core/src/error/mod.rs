@@ -139,6 +139,16 @@ pub enum Error {
         /// The contact.
         item: &'static str,
     },
+    /// A stop or a mark asks for a force that the motion does not determine, where that has no value of its own: contacts or frictions bound how a load is
+    /// shared, or forces act in directions that change.
+    Undetermined {
+        /// Time, s: the end of the step in which this is seen.
+        time: f64,
+        /// The stop or mark.
+        item: &'static str,
+        /// The mode.
+        mode: String,
+    },
     /// In dual numbers: a slip of two components begins, in a direction whose derivatives are not computed, and all of the motion after it
     /// has them.
     NoDerivatives {

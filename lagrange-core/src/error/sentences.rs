@@ -162,6 +162,12 @@ impl fmt::Display for Error {
                  size, for example sqrt(x^2 + y^2) >= radius",
                 Shortest(*time)
             ),
+            Error::Undetermined { time, item, mode } => write!(
+                f,
+                "t = {}, mode {mode}: `{item}` asks for a force that the motion does not determine; watch a sum of forces that it does \
+                 determine, or hold the load with springs",
+                Shortest(*time)
+            ),
             Error::NoDerivatives { time, item } => write!(
                 f,
                 "t = {}: the slip of `{item}` begins in a direction whose derivatives are not computed; take differences of two runs",

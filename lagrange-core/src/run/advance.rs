@@ -51,6 +51,7 @@ impl<T: Scalar> Run<T> {
         composites.iter_mut().for_each(|c| c.falls_after = None);
         self.locator.vanishing.clear();
         let hit = self.accepted_step()?;
+        self.refuse_watches_of_bounded_shares()?;
         let hit = self.stop_where_guards_fall(hit);
         self.check_resolution()?;
         let end = self.take_step(&hit)?;

@@ -254,6 +254,7 @@ impl<T: Scalar> Run<T> {
             self.evaluate()?;
             self.now.valued = valued;
             self.note_redundant_forces();
+            self.refuse_watches_of_bounded_shares()?;
             // What sticks beside what slides holds by a load that it would not have on equal springs.
             let bent = (self.switcher.redundant).bend_loads_of_slips(&self.dynamics);
             self.switcher.decider.decision.ambiguous |= bent;

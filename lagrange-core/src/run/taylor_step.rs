@@ -220,6 +220,9 @@ impl<T: Scalar> Run<T> {
                         continue;
                     }
                     guarded |= motion <= 1.0;
+                    if guarded && known {
+                        self.refuse_watches_of_turning_shares(looked)?;
+                    }
                     if motion <= 1.0 && smaller <= self.resolution(moves) {
                         if self.locator.rests.is_empty() {
                             return self.pass_break();

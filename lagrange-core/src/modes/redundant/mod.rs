@@ -453,6 +453,25 @@ impl<T: Scalar> RedundantForces<T> {
         forces
     }
 
+    /// Forces of all rows that move the system in the same way as those last looked at, and are others wherever they are undetermined.
+    pub fn otherwise(&self, dynamics: &Dynamics<T>) -> Vec<T> {
+        let size = |force: &T| force.value().abs();
+        let largest = self.least.forces.iter().map(size).fold(0.0, f64::max);
+        let size = if largest > 0.0 { largest } else { 1.0 };
+        // Of no two forces the same part.
+        let count = self.least.forces.len();
+        let parts: Vec<(usize, T)> = (0..count)
+            .map(|i| (i, T::from_f64(size / (1.0 + (i as f64).sqrt()))))
+            .collect();
+        let changes = self.least.freedom.part(&parts);
+        let mut forces = self.least.forces.clone();
+        for (force, &change) in forces.iter_mut().zip(&changes) {
+            *force += change;
+        }
+        self.least.follow(changes.as_slice(), &mut forces);
+        dynamics.forces_of_acting(&forces)
+    }
+
     /// Whether the force of each row is undetermined.
     fn undetermined(&self, dynamics: &Dynamics<T>, out: &mut Vec<bool>) {
         let d = dynamics.description();

@@ -6,6 +6,7 @@
 //! that they never do, the instant at which forces cease to keep all bounds is located by the forces themselves.
 
 mod margins;
+mod watched;
 mod within;
 
 use super::Run;

@@ -64,6 +64,7 @@ mod in_turn;
 mod incline;
 mod instants;
 mod into_corner;
+mod jammed_plugs;
 mod joint_rests;
 mod joint_stops;
 mod just_true;
