@@ -44,7 +44,7 @@ pub fn expand(input: TokenStream) -> TokenStream {
         }
         _ => {
             let mut tokens = sink.into_compile_errors();
-            tokens.extend(emit::fallback(input, declaration.as_ref()));
+            tokens.extend(emit::fallback(input));
             tokens
         }
     }

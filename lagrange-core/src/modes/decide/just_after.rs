@@ -334,7 +334,7 @@ impl<T: Scalar> Decider<T> {
         };
         let absolute = match guard {
             Guard::Branch(b) if !here.facts.held[b] => ROUNDED,
-            _ => absolute,
+            _ => absolute.max(ROUNDED * growth(dynamics, order, h)),
         };
         let noise = (relative * size).max(absolute * cancelling);
         match series.iter().position(|c| c.abs() > noise) {
@@ -382,6 +382,17 @@ impl<T: Scalar> Decider<T> {
 /// What is less than this part of what it changes by is nothing, as far as the instant is known by a run of this tolerance.
 pub(super) fn unclear_part(tolerance: f64) -> f64 {
     (INSTANT * tolerance).max(1e-13)
+}
+
+/// By how much what cancels may be larger after a time `h` than at the instant: forces are made of positions and of products of them, as those on a plank of a mass
+/// that has left it and is counted along it.
+fn growth<T: Scalar>(dynamics: &Dynamics<T>, order: usize, h: f64) -> f64 {
+    let growths = (0..dynamics.acceleration().len()).map(|j| {
+        let series = &dynamics.position_series(j)[..=order];
+        let extent: f64 = terms(series.iter().map(|c| c.value()), h).sum();
+        extent / (1.0 + series[0].value().abs())
+    });
+    growths.fold(1.0, f64::max).powi(2)
 }
 
 /// The sizes of the terms of a series after some time.

@@ -3,6 +3,7 @@
 use crate::ast::{Declaration, Energy, Head, ItemKind, Name, Observe};
 use crate::diagnostics::{Code, Diagnostics};
 use crate::model::shouting;
+use crate::parse::Glimpse;
 use crate::sorted::SortedMap;
 use proc_macro2::Ident;
 
@@ -11,6 +12,21 @@ pub(super) const OF_SYSTEMS: [&str; 3] = ["CHECKS", "DECLARATION", "DESCRIPTION"
 
 /// What observes. A constant of it that is taken is left out: an output may be called as what it observes is, or as a constant of all systems.
 pub(super) const OUTPUT: &str = "ObserveId";
+
+/// The type of the constants of an item, by the word that begins it; what is not listed observes.
+const KINDS: [(&str, &str); 11] = [
+    ("coordinates", "CoordinateId"),
+    ("kinetic", "KineticId"),
+    ("potential", "PotentialId"),
+    ("constraint", "ConstraintId"),
+    ("contact", "ContactId"),
+    ("friction", "FrictionId"),
+    ("force", "ForceId"),
+    ("dissipation", "DissipationId"),
+    ("start", "StartId"),
+    ("stop", "StopId"),
+    ("mark", "MarkId"),
+];
 
 /// A name that becomes a constant.
 pub(super) struct Constant<'a> {
@@ -21,21 +37,23 @@ pub(super) struct Constant<'a> {
 }
 
 impl<'a> Constant<'a> {
-    fn new(kind: &'static str, name: &'a Name, indexed: bool) -> Self {
+    /// That of an item which begins with this word.
+    fn new(keyword: &str, name: &'a Name, indexed: bool) -> Self {
+        let known = KINDS.iter().find(|(word, _)| *word == keyword);
         Self {
-            kind,
+            kind: known.map_or(OUTPUT, |(_, kind)| kind),
             name,
             indexed,
         }
     }
 
-    fn of(kind: &'static str, head: &'a Head) -> Self {
-        Self::new(kind, &head.name, head.index.is_some())
+    fn of(keyword: &str, head: &'a Head) -> Self {
+        Self::new(keyword, &head.name, head.index.is_some())
     }
 }
 
 /// Those of a declaration, in its order.
-pub(super) fn constants(declaration: &Declaration) -> Vec<Constant<'_>> {
+fn constants(declaration: &Declaration) -> Vec<Constant<'_>> {
     declaration
         .items
         .iter()
@@ -43,33 +61,39 @@ pub(super) fn constants(declaration: &Declaration) -> Vec<Constant<'_>> {
         .collect()
 }
 
+/// Those of a struct whose attributes may be wrong.
+pub(super) fn glimpsed(seen: &Glimpse) -> impl Iterator<Item = Constant<'_>> {
+    let names = seen.names.iter();
+    names.map(|seen| Constant::new(seen.keyword, &seen.name, seen.indexed))
+}
+
 fn of(item: &ItemKind) -> Vec<Constant<'_>> {
     match item {
         ItemKind::Coordinates(list) => list
             .iter()
-            .map(|one| Constant::new("CoordinateId", &one.name, one.length.is_some()))
+            .map(|one| Constant::new("coordinates", &one.name, one.length.is_some()))
             .collect(),
         ItemKind::Attitude(attitude) => vec![
-            Constant::new("CoordinateId", &attitude.coordinates, true),
-            Constant::new("ConstraintId", &attitude.body, false),
+            Constant::new("coordinates", &attitude.coordinates, true),
+            Constant::new("constraint", &attitude.body, false),
         ],
         ItemKind::Observe(list) => list
             .iter()
             .map(|observe| match observe {
-                Observe::Known(name) => Constant::new(OUTPUT, name, false),
-                Observe::New(head, _) => Constant::of(OUTPUT, head),
+                Observe::Known(name) => Constant::new("observe", name, false),
+                Observe::New(head, _) => Constant::of("observe", head),
             })
             .collect(),
-        ItemKind::Kinetic(item) => energy("KineticId", item),
-        ItemKind::Potential(item) => energy("PotentialId", item),
-        ItemKind::Constraint(item) => vec![Constant::of("ConstraintId", &item.head)],
-        ItemKind::Contact(item) => vec![Constant::of("ContactId", &item.head)],
-        ItemKind::Friction(item) => vec![Constant::of("FrictionId", &item.head)],
-        ItemKind::Force(item) => vec![Constant::of("ForceId", &item.head)],
-        ItemKind::Dissipation(item) => vec![Constant::of("DissipationId", &item.head)],
-        ItemKind::Start(item) => vec![Constant::of("StartId", &item.head)],
-        ItemKind::Stop(item) => vec![Constant::of("StopId", &item.head)],
-        ItemKind::Mark(item) => vec![Constant::of("MarkId", &item.head)],
+        ItemKind::Kinetic(item) => energy("kinetic", item),
+        ItemKind::Potential(item) => energy("potential", item),
+        ItemKind::Constraint(item) => vec![Constant::of("constraint", &item.head)],
+        ItemKind::Contact(item) => vec![Constant::of("contact", &item.head)],
+        ItemKind::Friction(item) => vec![Constant::of("friction", &item.head)],
+        ItemKind::Force(item) => vec![Constant::of("force", &item.head)],
+        ItemKind::Dissipation(item) => vec![Constant::of("dissipation", &item.head)],
+        ItemKind::Start(item) => vec![Constant::of("start", &item.head)],
+        ItemKind::Stop(item) => vec![Constant::of("stop", &item.head)],
+        ItemKind::Mark(item) => vec![Constant::of("mark", &item.head)],
         ItemKind::Define(_)
         | ItemKind::Lagrangian(_)
         | ItemKind::Impacts(_)
@@ -80,9 +104,9 @@ fn of(item: &ItemKind) -> Vec<Constant<'_>> {
 }
 
 /// That of an energy, if it has a name.
-fn energy<'a>(kind: &'static str, energy: &'a Energy) -> Vec<Constant<'a>> {
+fn energy<'a>(keyword: &str, energy: &'a Energy) -> Vec<Constant<'a>> {
     let head = energy.head.iter();
-    head.map(|head| Constant::of(kind, head)).collect()
+    head.map(|head| Constant::of(keyword, head)).collect()
 }
 
 /// Reports different names that become one constant, and names whose constant every system has.

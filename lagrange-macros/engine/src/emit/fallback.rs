@@ -1,36 +1,38 @@
-//! What stands beside the errors of a declaration: an `impl System` that type-checks, so that one mistake does not
-//! become an error at every use of the struct.
+//! What stands beside the errors of a declaration: an `impl System` that type-checks and handles of its names, so that one mistake does not become an
+//! error at every use of the struct.
 
-use super::constants::{constants, screaming};
+use super::constants::{glimpsed, screaming};
 use super::derivation;
 use super::handles::{self, Indices};
 use super::names;
-use crate::ast::Declaration;
+use crate::parse::{Glimpse, glimpse};
 use crate::sorted::SortedSet;
 use proc_macro2::TokenStream;
-use quote::quote;
-use syn::DeriveInput;
+use quote::{ToTokens, quote};
+use syn::{DeriveInput, GenericParam};
 
-/// An implementation without equations for whatever struct the tokens are; nothing if they are none. With a
-/// declaration also the handles of its items.
-pub fn fallback(input: TokenStream, declaration: Option<&Declaration>) -> TokenStream {
-    let core = declaration.and_then(|declaration| declaration.core.clone());
+/// An implementation without equations for whatever struct the tokens are, with handles of the names that they seem to declare; nothing if they
+/// are none.
+pub fn fallback(input: TokenStream) -> TokenStream {
+    let Ok(input) = syn::parse2::<DeriveInput>(input) else {
+        return TokenStream::new();
+    };
+    let seen = glimpse(&input);
+    let core = seen.core.clone();
     let core = core.unwrap_or_else(|| quote!(::lagrange_core));
-    let mut tokens = declaration
-        .map(|declaration| placeholders(declaration, &core))
-        .unwrap_or_default();
-    if let Ok(input) = syn::parse2::<DeriveInput>(input) {
-        tokens.extend(implementation(&input, &core));
+    let mut tokens = implementation(&input, &core);
+    if input.generics.const_params().next().is_none() {
+        tokens.extend(placeholders(&input, &seen, &core));
     }
     tokens
 }
 
 /// Handles of all names, so that their uses are not reported as well.
-fn placeholders(declaration: &Declaration, core: &TokenStream) -> TokenStream {
+fn placeholders(input: &DeriveInput, seen: &Glimpse, core: &TokenStream) -> TokenStream {
     // How many elements an indexed item has is not known here: enough for every index that is used.
     let many = [0; 1024];
     let (mut handles, mut taken) = (Vec::new(), SortedSet::new());
-    for constant in constants(declaration) {
+    for constant in glimpsed(seen) {
         let name = screaming(&constant.name.ident);
         if taken.insert(name.to_string()) {
             let indices = match constant.indexed {
@@ -41,11 +43,29 @@ fn placeholders(declaration: &Declaration, core: &TokenStream) -> TokenStream {
             handles.push(handles::handle(core, &name, constant.kind, indices, text));
         }
     }
-    let name = &declaration.name;
-    let arguments = declaration.scalar.as_ref().map(|_| quote!(<f64>));
-    let mut tokens = handles::inherent(quote!(#name #arguments), &handles);
-    tokens.extend(derivation::nothing(quote!(#name #arguments), core));
+    let target = applied(input, |_| quote!(f64));
+    let mut tokens = handles::inherent(target.clone(), &handles);
+    tokens.extend(derivation::nothing(target, core));
     tokens
+}
+
+/// The struct with what stands for its type parameters; its references may last for ever.
+fn applied(input: &DeriveInput, of: impl Fn(&syn::TypeParam) -> TokenStream) -> TokenStream {
+    let name = &input.ident;
+    let arguments = input
+        .generics
+        .params
+        .iter()
+        .map(|parameter| match parameter {
+            GenericParam::Lifetime(_) => quote!('static),
+            GenericParam::Type(parameter) => of(parameter),
+            GenericParam::Const(parameter) => parameter.ident.to_token_stream(),
+        });
+    let arguments: Vec<TokenStream> = arguments.collect();
+    match arguments.is_empty() {
+        true => quote!(#name),
+        false => quote!(#name<#(#arguments),*>),
+    }
 }
 
 fn implementation(input: &DeriveInput, core: &TokenStream) -> TokenStream {
@@ -60,12 +80,17 @@ fn implementation(input: &DeriveInput, core: &TokenStream) -> TokenStream {
             .push(syn::parse_quote!(#core::arithmetic::Scalar));
     }
     let scalar = scalar.map_or(quote!(f64), |scalar| quote!(#scalar));
-    let name = &input.ident;
-    let (parameters, arguments, conditions) = generics.split_for_impl();
+    if generics.lifetimes().next().is_some() {
+        let params = core::mem::take(&mut generics.params).into_iter();
+        let others = params.filter(|parameter| !matches!(parameter, GenericParam::Lifetime(_)));
+        (generics.params, generics.where_clause) = (others.collect(), None);
+    }
+    let target = applied(input, |parameter| parameter.ident.to_token_stream());
+    let (parameters, _, conditions) = generics.split_for_impl();
     let (description, read_tables) = (empty(core), names::read_tables(core));
     quote! {
         #[automatically_derived]
-        impl #parameters #core::system::System for #name #arguments #conditions {
+        impl #parameters #core::system::System for #target #conditions {
             type Scalar = #scalar;
             fn copy(&self) -> Self {
                 ::core::unreachable!()
@@ -83,7 +108,7 @@ fn implementation(input: &DeriveInput, core: &TokenStream) -> TokenStream {
         }
 
         #[automatically_derived]
-        impl #parameters #core::system::Derived for #name #arguments #conditions {
+        impl #parameters #core::system::Derived for #target #conditions {
             const DESCRIPTION: &'static #core::system::Description = &#description;
             const DECLARATION: &'static #core::__private::declaration::Declaration = &#core::__private::declaration::Declaration::NONE;
         }

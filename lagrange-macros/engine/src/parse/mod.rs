@@ -6,6 +6,7 @@
 mod cursor;
 mod expression;
 mod file;
+mod glimpse;
 mod item;
 mod leftover;
 mod number;
@@ -20,6 +21,7 @@ use crate::diagnostics::Diagnostics;
 use proc_macro2::TokenStream;
 
 pub use file::{File, file, lone_expression};
+pub use glimpse::{Glimpse, glimpse};
 pub use words::{DEGREES, FUNCTIONS, KEYWORDS, is_degree};
 
 /// Reads a struct with its `#[lagrange(…)]` attributes; mistakes go to the sink.
