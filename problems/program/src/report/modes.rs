@@ -3,6 +3,7 @@
 use super::json::Numbers;
 use super::table::{Decimals, page};
 use super::with_unit;
+use super::words::Names;
 use crate::feasible::Feasible;
 use crate::notation::{rate_unit, velocity_name};
 use crate::outcome::forces;
@@ -66,6 +67,8 @@ pub fn table(found: &Feasible, mut out: impl Write) -> io::Result<()> {
         .iter()
         .map(|column| Decimals::of(column.values.iter().map(|(_, value)| *value)))
         .collect();
+    let every = found.modes.iter().map(|now| &now.mode);
+    let names = Names::new(found.description, every);
     for (k, now) in found.modes.iter().enumerate() {
         let numbers = columns.iter().zip(&decimals).map(|(column, decimals)| {
             let (acts, value) = column.values[k];
@@ -75,7 +78,7 @@ pub fn table(found: &Feasible, mut out: impl Write) -> io::Result<()> {
                 String::new()
             }
         });
-        let mode = super::words::brief(&now.mode, found.description);
+        let mode = names.brief(&now.mode);
         table.add_row([(k + 1).to_string(), mode].into_iter().chain(numbers));
     }
     for (index, column) in table.column_iter_mut().enumerate() {

@@ -4,7 +4,7 @@ use super::COLOURS;
 use crate::outcome::{Outcome, Sample};
 use crate::quantity::{Quantity, Show};
 use crate::report::telling;
-use crate::report::words::{SMOOTH, brief};
+use crate::report::words::{Names, SMOOTH};
 use lagrange_core::prelude::EventKind;
 use lagrange_core::system::Description;
 
@@ -40,12 +40,12 @@ pub(super) struct Bands {
 }
 
 pub(super) fn bands(outcome: &Outcome) -> Bands {
-    let mut names: Vec<String> = Vec::new();
+    let (called, mut names) = (Names::of(outcome, []), Vec::new());
     let spans: Vec<_> = outcome
         .phases
         .iter()
         .map(|phase| {
-            let name = brief(&phase.mode, outcome.description);
+            let name = called.brief(&phase.mode);
             let mode = names
                 .iter()
                 .position(|known| *known == name)

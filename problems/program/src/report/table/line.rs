@@ -1,7 +1,7 @@
 //! Outcome → lines of the story: its start, a line for each switch, its end.
 
 use crate::outcome::{Force, Outcome, Sample};
-use crate::report::words::{FEW, MANY, brief, changed};
+use crate::report::words::{FEW, MANY, Names, changed};
 use lagrange_core::mode::Mode;
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
@@ -23,7 +23,12 @@ pub(super) struct Line {
 
 /// The lines of an outcome, with the forces of these `items`.
 pub(super) fn lines(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
-    let teller = Teller { outcome, items };
+    let names = Names::of(outcome, []);
+    let teller = Teller {
+        outcome,
+        items,
+        names,
+    };
     let groups = instants(&outcome.events);
     let first = groups.first().map(|(_, group)| *group);
     let first = first.filter(|group| outcome.is_decided_at_start(&group[0]));
@@ -44,6 +49,7 @@ pub(super) fn lines(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
 struct Teller<'a> {
     outcome: &'a Outcome,
     items: &'a [Force],
+    names: Names,
 }
 
 impl Teller<'_> {
@@ -78,7 +84,7 @@ impl Teller<'_> {
             upper: self.acting(&sample.forces, &sample.mode),
             lower: Vec::new(),
             impulse: false,
-            mode: brief(&sample.mode, self.outcome.description),
+            mode: self.names.brief(&sample.mode),
         }
     }
 
@@ -90,13 +96,13 @@ impl Teller<'_> {
             EventKind::Impact => Line {
                 state: self.known(&event.state.q, self.before(0)),
                 upper: self.acting(&event.forces, &event.before),
-                mode: brief(&event.before, description),
+                mode: self.names.brief(&event.before),
                 ..start
             },
             _ => Line {
                 event: format!("start\n{}", named(group, description)),
                 upper: self.acting(&event.forces_after, &event.after),
-                mode: brief(&event.after, description),
+                mode: self.names.brief(&event.after),
                 ..start
             },
         }
@@ -138,7 +144,7 @@ impl Teller<'_> {
             mode: match (changed, event.kind) {
                 (Some(changed), _) if impulse => format!("→ {changed}"),
                 (Some(changed), _) => format!("\n→ {changed}"),
-                (None, EventKind::Stop) => brief(&event.after, description),
+                (None, EventKind::Stop) => self.names.brief(&event.after),
                 (None, _) => String::new(),
             },
         })
