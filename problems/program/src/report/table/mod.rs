@@ -9,6 +9,7 @@ mod story;
 
 use super::words::{FEW, MANY};
 use crate::outcome::Outcome;
+use crate::quantity::Quantity;
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
 use decimals::time;
 use lagrange_core::prelude::*;
@@ -35,6 +36,9 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
         writeln!(out, "Without {}.\n", left_out.join(", "))?;
     }
     writeln!(out, "{}", story(outcome).trim_fmt())?;
+    if let Some(moved) = moved(outcome) {
+        writeln!(out, "\n{moved}")?;
+    }
     let open = outcome.undetermined();
     if !open.is_empty() {
         let depends = match outcome.slides_undetermined() {
@@ -107,6 +111,33 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
         writeln!(out, "{certificate}")?;
     }
     writeln!(out, "\n{}", work(outcome))
+}
+
+/// What of the start has been moved, and how far, if anything was that its digits show.
+fn moved(outcome: &Outcome) -> Option<String> {
+    let (asked, sample) = (outcome.asked.as_ref()?, outcome.first()?);
+    let at_start = outcome.events.first();
+    let at_start = at_start.filter(|event| event.time == sample.time);
+    let taken = at_start.map_or(&sample.state, |event| &event.state);
+    let d = outcome.description;
+    let places = 0..d.coordinates.len();
+    let numbers = |state: &State<f64>| [state.q.clone(), state.v.clone()].concat();
+    let quantities = places.clone().map(Quantity::Position);
+    let quantities = quantities.chain(places.map(Quantity::Velocity));
+    let pairs = numbers(asked).into_iter().zip(numbers(taken));
+    let told = quantities
+        .zip(pairs)
+        .filter_map(|(quantity, (asked, taken))| {
+            let [asked, taken] = [asked, taken].map(|x| x * quantity.scale(d));
+            let by = Decimals::of([taken - asked]).show(taken - asked);
+            let decimals = Decimals::of([asked, taken]);
+            let shows = decimals.show(asked) != decimals.show(taken);
+            let told = format!("{} by {by} {}", quantity.name(d), quantity.unit(d));
+            shows.then(|| told.trim_end().to_owned())
+        });
+    let told: Vec<String> = told.collect();
+    let told = told.join(", ");
+    (!told.is_empty()).then(|| format!("The start was moved onto what holds there: {told}."))
 }
 
 /// Of what a run takes one of several, and where the others are told.
@@ -266,6 +297,31 @@ mod tests {
         let text = String::from_utf8(text).expect("text");
         let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
         text.lines().map(words).collect()
+    }
+
+    /// A bead beside its ring, and a roller that does not roll: each is moved by least squares of the masses, here one.
+    #[test]
+    fn how_far_a_start_is_moved_is_told() {
+        let declared = "coordinates(x, y, phi), kinetic = (der(x)^2 + der(y)^2 + der(phi)^2) / 2, constraint(ring: x^2 + y^2 == 25),
+            constraint(rolls: der(phi) == 3), start(out: x = 3.3, y = 4.4), until = 0.1";
+        let scene = scene("ring.lagrange", declared).expect("a declaration");
+        let told = |project: bool| {
+            let request = Request {
+                project,
+                ..Request::default()
+            };
+            let outcome = scene.run(&request).expect("a run");
+            let mut text = Vec::new();
+            super::write(&outcome, &mut text).expect("memory");
+            let text = String::from_utf8(text).expect("text");
+            let mut lines = text.lines();
+            lines
+                .find(|line| line.starts_with("The start was moved"))
+                .map(str::to_owned)
+        };
+        assert_eq!(told(false), None);
+        let expected = "The start was moved onto what holds there: x by -0.30000, y by -0.40000, dφ/dt by 171.89 °/s.";
+        assert_eq!(told(true).as_deref(), Some(expected));
     }
 
     /// A bead on a hoop that is turned: T has no form quadratic in the velocity, and v ∂T/∂v − T + V stays.
