@@ -19,6 +19,35 @@ pub(super) struct Line {
     pub lower: Vec<Option<f64>>,
     pub impulse: bool,
     pub mode: String,
+    /// So many lines like it, before it, are left out.
+    pub left_out: usize,
+}
+
+/// So many impacts of one contact in a row are told one by one.
+const SERIES: usize = 8;
+
+/// Of a longer series of impacts in one mode the first line and the last.
+fn folded(lines: Vec<Line>) -> Vec<Line> {
+    let goes_on = |a: &Line, b: &Line| {
+        let one = a.impulse && b.impulse && a.event == b.event;
+        one && a.mode.is_empty()
+    };
+    let series = lines.chunk_by(goes_on).map(<[Line]>::len);
+    let series: Vec<usize> = series.collect();
+    let mut lines = lines.into_iter();
+    let mut folded = Vec::new();
+    for count in series {
+        if count <= SERIES {
+            folded.extend(lines.by_ref().take(count));
+            continue;
+        }
+        folded.extend(lines.next());
+        folded.extend(lines.nth(count - 2).map(|last| Line {
+            left_out: count - 2,
+            ..last
+        }));
+    }
+    folded
 }
 
 /// The lines of an outcome, with the forces of these `items`.
@@ -42,7 +71,7 @@ pub(super) fn lines(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
     let switches = told.filter_map(|(index, group)| teller.switch(*index, group));
     let mut lines: Vec<Line> = start.into_iter().chain(switches).collect();
     lines.extend(teller.end());
-    lines
+    folded(lines)
 }
 
 /// What the lines are told of.
@@ -85,6 +114,7 @@ impl Teller<'_> {
             lower: Vec::new(),
             impulse: false,
             mode: self.names.brief(&sample.mode),
+            left_out: 0,
         }
     }
 
@@ -147,6 +177,7 @@ impl Teller<'_> {
                 (None, EventKind::Stop) => self.names.brief(&event.after),
                 (None, _) => String::new(),
             },
+            left_out: 0,
         })
     }
 

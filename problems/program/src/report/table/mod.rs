@@ -324,6 +324,36 @@ mod tests {
         assert_eq!(told(true).as_deref(), Some(expected));
     }
 
+    /// A ball that keeps 0.9 of its speed, g = 8: from 1 m it falls 0.5 s, and the k-th flight takes 0.9^k s.
+    #[test]
+    fn of_a_long_series_of_impacts_the_first_and_the_last_are_told() {
+        let declared = "coordinates(y), kinetic = der(y)^2 / 2, potential = 8 * y, contact(floor: y >= 0, restitution = 0.9),
+            start(drop: y = 1), until = 7.3";
+        let lines = story(declared);
+        let impacts: Vec<&String> = lines
+            .iter()
+            .filter(|line| line.contains("floor impact"))
+            .collect();
+        let last = (1..14).fold(0.5, |t, k| t + 0.9_f64.powi(k));
+        assert_eq!(impacts.len(), 2, "{lines:#?}");
+        assert!(
+            impacts[0].starts_with("0.500000 floor impact"),
+            "{lines:#?}"
+        );
+        assert!(
+            impacts[1].starts_with(&format!("{last:.6} floor impact")),
+            "{last} {lines:#?}"
+        );
+        assert!(lines.contains(&"12 more".to_owned()), "{lines:#?}");
+        let few = story(&declared.replace("7.3", "5"));
+        assert_eq!(
+            few.iter()
+                .filter(|line| line.contains("floor impact"))
+                .count(),
+            7
+        );
+    }
+
     /// A bead on a hoop that is turned: T has no form quadratic in the velocity, and v ∂T/∂v − T + V stays.
     #[test]
     fn a_story_shows_the_jacobi_integral_where_it_is_not_the_energy() {

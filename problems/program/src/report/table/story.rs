@@ -207,6 +207,7 @@ pub(super) fn story(outcome: &Outcome) -> Table {
     forget_rounding(&mut lines, &items, outcome.description);
     let columns = shown(outcome.description, items.len());
     let estimated = lines.iter().any(|line| line.error.is_some());
+    let times = 1 + usize::from(estimated);
     let mut table = page();
     table.set_header(header(outcome, &items, &columns, estimated));
     let of_coordinates = columns.iter();
@@ -216,6 +217,11 @@ pub(super) fn story(outcome: &Outcome) -> Table {
     let of_forces = decimals_of_forces(&items, &lines, outcome);
     let units = &outcome.description.units;
     for line in &lines {
+        if line.left_out > 0 {
+            let mut row = vec![String::new(); times];
+            row.push(format!("{} more", line.left_out));
+            table.add_row(row);
+        }
         let mut row = vec![time(line.time, outcome.lasts())];
         if estimated {
             row.push(line.error.map_or(String::new(), off));
@@ -233,7 +239,6 @@ pub(super) fn story(outcome: &Outcome) -> Table {
         row.push(line.mode.clone());
         table.add_row(row);
     }
-    let times = 1 + usize::from(estimated);
     lay_out(&mut table, &lines, times, columns.len() + items.len());
     table
 }
