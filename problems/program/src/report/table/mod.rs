@@ -35,7 +35,10 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
     if !left_out.is_empty() {
         writeln!(out, "Without {}.\n", left_out.join(", "))?;
     }
-    writeln!(out, "{}", story(outcome).trim_fmt())?;
+    for (k, table) in story(outcome).iter().enumerate() {
+        let apart = if k > 0 { "\n" } else { "" };
+        writeln!(out, "{apart}{}", table.trim_fmt())?;
+    }
     if let Some(moved) = moved(outcome) {
         writeln!(out, "\n{moved}")?;
     }
@@ -297,6 +300,48 @@ mod tests {
         let text = String::from_utf8(text).expect("text");
         let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
         text.lines().map(words).collect()
+    }
+
+    /// Nine blocks on a shelf: more numbers than a line has stand below, with the times.
+    #[test]
+    fn no_line_of_a_story_is_wider_than_a_page() {
+        let declared = "parameters(m = 1, g = 10), coordinates(height[9]), kinetic = sum(k in 0..9: m/2 * der(height[k])^2),
+            potential = sum(k in 0..9: (k + 1) * g * height[k]), contact(shelf[k in 0..9]: height[k] >= 0),
+            mark(noon: t - 0.5), start(lying: height[0] = 0), until = 1";
+        let scene = scene("shelf.lagrange", declared).expect("a declaration");
+        let outcome = scene.run(&Request::default()).expect("a run");
+        let mut text = Vec::new();
+        super::write(&outcome, &mut text).expect("memory");
+        let text = String::from_utf8(text).expect("text");
+        let story = text.split("energy").next().unwrap_or_default();
+        let widest = story
+            .lines()
+            .map(|line| line.trim_end().chars().count())
+            .max();
+        assert!(widest <= Some(usize::from(super::WIDTH)), "{text}");
+        let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
+        let noon: Vec<String> = story
+            .lines()
+            .map(words)
+            .filter(|line| line.contains("noon"))
+            .collect();
+        let loads = |from: u32, to: u32| {
+            let loads = (from..to).map(|k| format!("{:.3}", 10.0 * f64::from(k)));
+            loads.collect::<Vec<_>>().join(" ")
+        };
+        assert!(noon.len() > 1, "{text}");
+        assert!(
+            noon.iter().any(|line| line.contains(&loads(1, 4))),
+            "{noon:#?}"
+        );
+        assert!(
+            story
+                .lines()
+                .filter(|line| line.contains("all 9 contacts"))
+                .count()
+                >= 2,
+            "{text}"
+        );
     }
 
     /// A bead beside its ring, and a roller that does not roll: each is moved by least squares of the masses, here one.
