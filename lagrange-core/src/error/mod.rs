@@ -262,7 +262,7 @@ pub enum Error {
         time: f64,
         /// The end that was asked for, s.
         end: f64,
-        /// Steps that are missing, if the run goes on as it did.
+        /// Steps that are missing, if the run goes on as it did; infinite where no number of them comes to the end.
         steps: f64,
         /// Steps that a run may take.
         limit: usize,

@@ -271,6 +271,14 @@ impl fmt::Display for Error {
                 }
             ),
             Error::OutOfReach {
+                time, end, steps, ..
+            } if steps.is_infinite() => write!(
+                f,
+                "t = {}: the motion becomes faster and faster, and steps so short that none of them will come to the end, {end:e} s; end it earlier, or \
+                 look for what grows without bound",
+                Shortest(*time)
+            ),
+            Error::OutOfReach {
                 time,
                 end,
                 steps,

@@ -64,7 +64,7 @@ impl<T: Scalar> Run<T> {
             what, item, cause, ..
         } = &mut error
         {
-            if self.exponentials_overflow() {
+            if self.exponentials_overflow() && !self.has_gone_far() {
                 *cause = NotFinite::Exponential;
             } else if let Some((name, why)) = self.item_without_value() {
                 (*what, *item) = (format!("`{name}`, with {why} in it,"), Some(name));
@@ -125,6 +125,13 @@ impl<T: Scalar> Run<T> {
             let size = evaluator.value(value).powi(RAISED);
             evaluator.follows_state(value) && size.is_infinite()
         })
+    }
+
+    /// Whether the state itself is so large that products of it are beyond all numbers.
+    fn has_gone_far(&self) -> bool {
+        let State { q, v, .. } = &self.now.state;
+        let mut sizes = q.iter().chain(v).map(|x| x.value().abs());
+        sizes.any(|size| size > LARGEST)
     }
 
     /// Whether parameters, the state or its accelerations are of a size that products leave the range of numbers with.

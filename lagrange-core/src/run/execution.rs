@@ -52,6 +52,7 @@ impl<T: Scalar> Run<T> {
         self.now.t = t;
         // Single precision has no number for most last times.
         (self.begin, self.end) = (t.value(), T::from_f64(span.end).value());
+        self.looks = [self.begin; 3];
         self.now.state.clone_from(start);
         self.now.state.name(self.dynamics.description());
         let state = &self.now.state;

@@ -107,6 +107,8 @@ pub(crate) struct Run<T: Scalar> {
     begin: f64,
     /// Last instant of the span.
     end: f64,
+    /// When the number of steps doubled, the last three times, s.
+    looks: [f64; 3],
 }
 
 /// Where the motion is.
@@ -208,6 +210,7 @@ impl<T: Scalar> Run<T> {
             },
             begin: 0.0,
             end: 0.0,
+            looks: [0.0; 3],
             settings: settings.clone(),
         };
         run.dynamics.set_equations(settings.equations);

@@ -13,13 +13,16 @@ const FEWEST: f64 = 32.0;
 /// longer and longer steps.
 const FAR: f64 = 1e3;
 
+/// No flight between two events takes as many steps. Steps that events end become ever shorter where impacts accumulate, and that comes to an end.
+const FLIGHT: usize = 32;
+
 impl<T: Scalar> Run<T> {
     /// Looks, each time the number of steps has doubled, whether the end of the run is within reach at the rate at which it has gone so far.
     ///
     /// # Errors
     /// [`Error::OutOfReach`] if it is not.
     #[inline]
-    pub(super) fn check_reach(&self) -> Result<(), Error> {
+    pub(super) fn check_reach(&mut self) -> Result<(), Error> {
         match self.recorder.trajectory.work.steps.is_power_of_two() {
             true => self.look_ahead(),
             false => Ok(()),
@@ -27,13 +30,19 @@ impl<T: Scalar> Run<T> {
     }
 
     #[cold]
-    fn look_ahead(&self) -> Result<(), Error> {
+    fn look_ahead(&mut self) -> Result<(), Error> {
         let limit = self.settings.max_steps as f64;
         let (made, time) = (
             self.recorder.trajectory.work.steps as f64,
             self.now.t.value(),
         );
-        let missing = (self.end - time) * (made / (time - self.begin));
+        let even = (self.end - time) * (made / (time - self.begin));
+        let missing = match even > FAR * limit {
+            true => even,
+            false => self.growing(made, time),
+        };
+        self.looks.rotate_left(1);
+        self.looks[2] = time;
         match made >= FEWEST.max(FIRST * limit) && missing > FAR * limit {
             true => Err(Error::OutOfReach {
                 time,
@@ -43,5 +52,24 @@ impl<T: Scalar> Run<T> {
             }),
             false => Ok(()),
         }
+    }
+
+    /// Steps up to the end of the run if each time in which their number doubles is longer than the one before by the same factor, the larger of the
+    /// last two: less than 2 where the motion becomes faster and faster. Of steps that events end nothing is known.
+    fn growing(&self, made: f64, time: f64) -> f64 {
+        let trajectory = &self.recorder.trajectory;
+        if FLIGHT * trajectory.events.len() > trajectory.work.steps {
+            return 0.0;
+        }
+        let [a, b, c] = self.looks;
+        let (earlier, before, mut lasts) = (b - a, c - b, time - c);
+        let factor = (lasts / before).max(before / earlier);
+        let (mut steps, mut reached) = (made, time);
+        while reached < self.end && steps.is_finite() {
+            lasts *= factor;
+            reached += lasts;
+            steps *= 2.0;
+        }
+        steps
     }
 }

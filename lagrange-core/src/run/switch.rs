@@ -234,8 +234,11 @@ impl<T: Scalar> Run<T> {
         if self.switcher.decider.decision.expanded {
             self.now.series = Progress::Complete;
         }
-        if !hit {
-            self.refuse_corners()?;
+        if !hit && let Err(refused) = self.refuse_corners() {
+            // No motion goes on in the mode that is refused: its energies are not those at the end.
+            let before = &self.recorder.before.mode;
+            self.recorder.trajectory.enter(before);
+            return Err(refused);
         }
         if hit || self.rows_have_joined() {
             self.project(true)?;

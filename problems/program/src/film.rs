@@ -38,7 +38,8 @@ impl dyn Scene + '_ {
         let reel = |piece: &Trajectory, failure, request: &Request, times: &[f64]| {
             Reel::of(self.name(), piece, failure, request, times)
         };
-        let reel = self.in_pieces(request, bytes, instants, reel, Reel::join)?;
+        let beginning = self.beginning(request)?;
+        let reel = self.in_pieces(beginning, request, bytes, instants, reel, Reel::join)?;
         Ok(reel.film())
     }
 }

@@ -78,7 +78,7 @@ pub trait Results {
         String::from_utf8_lossy(&text).into_owned()
     }
 
-    /// Draws forces and coordinates over time into a file ….svg, ….png or ….pdf.
+    /// Draws forces, coordinates and outputs over time into a file ….svg, ….png or ….pdf.
     ///
     /// # Errors
     /// The name ends otherwise, the file cannot be written, or there is nothing to draw.

@@ -283,3 +283,23 @@ fn colours_come_when_they_are_asked_for() {
     let help = lagrange(&["run", "--help", "--color", "always"]);
     assert!(text(&help.stdout).contains('\u{1b}'));
 }
+
+/// A bead without inertia: whatever is to be run of it says where, and why.
+#[test]
+fn a_motion_that_cannot_begin_is_told_alike_by_all_commands() {
+    let folder = folder("a bead without inertia");
+    let declared = "parameters(bead = 0, cart = 2),\ncoordinates(s, x), kinetic = bead/2 * der(s)^2 + cart/2 * der(x)^2,\n\
+        potential = s^2, friction(rail: slip = der(x), limit = 1), start(out: s = 1, der(x) = 3), until = 1,";
+    fs::write(folder.join("bead.lagrange"), declared).expect("a file");
+    let said = |command: &str| {
+        let output = lagrange_in(&folder, &[command, "bead.lagrange"]);
+        assert_eq!(output.status.code(), Some(1), "{command}");
+        text(&output.stderr).to_owned()
+    };
+    let told = said("run");
+    assert!(told.contains("bead.lagrange:2:13: "), "{told}");
+    assert!(told.contains("the cause is `bead` = 0"), "{told}");
+    for command in ["effects", "accuracy", "modes"] {
+        assert_eq!(said(command), told, "{command}");
+    }
+}

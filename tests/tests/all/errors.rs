@@ -488,6 +488,48 @@ fn a_run_whose_end_is_out_of_reach_is_told_so() {
     }
 }
 
+/// A needle that is driven apart from where it rests, θ ~ e^(rate t), beside a weak bar magnet: it turns ever faster.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(theta),
+    kinetic = der(theta)^2 / 2,
+    potential = -weak * cos(theta) - rate^2 * theta^2 / 2,
+    start(beside: theta = 1),
+)]
+struct Driven {
+    weak: f64,
+    rate: f64,
+}
+
+/// Its steps are a part of a turn, and a turn takes e^(−rate t): in ln 2/rate their number doubles. What comes to rest has ever longer steps.
+#[test]
+fn a_motion_that_becomes_faster_and_faster_is_out_of_reach_early() {
+    let scene = Driven {
+        weak: 2.0,
+        rate: 2.5,
+    };
+    for method in ["taylor", "dop853", "dopri5"] {
+        let run = |until: f64| {
+            Simulation::new(&scene)
+                .method(method.parse().expect("a method"))
+                .record(false)
+                .max_steps(1_000_000)
+                .run(scene.at(Driven::BESIDE), 0.0..until)
+        };
+        let failure = run(500.0).expect_err("no run takes as many steps");
+        let Error::OutOfReach { time, steps, .. } = failure.error else {
+            panic!("{method}: {}", failure.error);
+        };
+        assert!(steps > 1e20, "{method}: {steps}");
+        let made = failure.trajectory.work().steps as f64;
+        assert!(made < 10_000.0, "{method}: {made}");
+        // A little later it has all the steps that it needs.
+        let run = run(time + 0.5).unwrap_or_else(|failure| panic!("{method}: {failure}"));
+        let more = run.work().steps as f64 / made;
+        assert!((2.0..6.0).contains(&more), "{method}: {more}");
+    }
+}
+
 /// A mass that is pushed for a moment.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(

@@ -118,7 +118,8 @@ impl dyn Scene + '_ {
             until,
             max_steps: 400_000,
         };
-        measure(self.name(), &motion, study, closed_form)
+        let accuracy = measure(self.name(), &motion, study, closed_form);
+        accuracy.map_err(|refusal| refusal.or_of_start(&motion.simulation, &motion.start))
     }
 }
 

@@ -84,7 +84,9 @@ impl Measure {
                 let reason = "interrupted before there was anything to measure errors against";
                 return Err(Trouble::Interrupted(reason.to_owned()));
             }
-            measured => measured.map_err(Trouble::refused)?,
+            measured => {
+                measured.map_err(|refusal| Trouble::refused_run(refusal, scene, &study.request))?
+            }
         };
         let what = ["run".to_owned(), self.scene.clone()];
         let run = shell::command(what.into_iter().chain(self.motion.arguments()));

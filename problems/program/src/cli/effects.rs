@@ -44,7 +44,7 @@ impl Effects {
             &progress,
             || file.scene.costs(&request),
         )
-        .map_err(Trouble::refused)?;
+        .map_err(|refusal| Trouble::refused_run(refusal, file.scene, &request))?;
         self.output.write(|out| write(&costs, format, out))
     }
 }

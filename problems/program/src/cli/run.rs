@@ -59,7 +59,7 @@ struct Results {
     /// May be repeated; `-` is stdout.
     #[arg(long, value_name = "FILE")]
     output: Vec<PathBuf>,
-    /// Draw forces and coordinates over time, or what --show says, into a file ….svg, ….png or ….pdf.
+    /// Draw forces, coordinates and outputs over time, or what --show says, into a file ….svg, ….png or ….pdf.
     #[arg(long, value_name = "FILE", value_parser = picture)]
     plot: Option<PathBuf>,
     /// What to draw: "theta, rim vs t", "der(theta) vs theta". Coordinates, velocities, forces, outputs, kinetic, potential,

@@ -86,7 +86,8 @@ impl dyn Scene + '_ {
         let effects = request.effects(system.description())?;
         let progress = request.progress.clone().unwrap_or_default();
         let run = (&start, until);
-        measure(self.name(), &system, &simulation, &effects, run, &progress).map_err(Refusal::Run)
+        let costs = measure(self.name(), &system, &simulation, &effects, run, &progress);
+        costs.map_err(|error| Refusal::Run(error).or_of_start(&simulation, &start))
     }
 }
 

@@ -38,6 +38,8 @@ pub struct Outcome {
     pub end_after: Vec<String>,
     /// How far off it is, if that was asked for.
     pub estimate: Option<Estimate>,
+    /// Where it was to start, if what holds there may have moved the start.
+    pub asked: Option<State<f64>>,
     /// Event log.
     pub events: Vec<Event<f64>>,
     /// Modes in order of time.
@@ -245,6 +247,7 @@ impl Outcome {
             end_after: request.end_after.clone(),
             estimate: trajectory.estimate().cloned(),
             effects: trajectory.effects().clone(),
+            asked: None,
             events: events.to_vec(),
             phases: trajectory.phases(),
             around: match request.samples {

@@ -22,24 +22,27 @@ impl dyn Scene + '_ {
         let outcome = |piece: &Trajectory, failure, request: &Request, times: &[f64]| {
             Outcome::sampled(self.name(), piece, failure, request, times)
         };
-        self.in_pieces(request, bytes, equal, outcome, Outcome::join)
+        let beginning = self.beginning(request)?;
+        let asked = request.project.then(|| beginning.start.clone());
+        let told = self.in_pieces(beginning, request, bytes, equal, outcome, Outcome::join)?;
+        Ok(Outcome { asked, ..told })
     }
 
-    /// What is `told` of the run as asked for. So many bytes of the motion are kept at a time: a longer one is told piece by piece, at
+    /// What is `told` of the run as asked for, which begins so. So many bytes of the motion are kept at a time: a longer one is told piece by piece, at
     /// equal intervals, and what is told is joined; one that fits is told at these `instants`.
     pub(crate) fn in_pieces<T>(
         &self,
+        Beginning {
+            system,
+            start,
+            until,
+        }: Beginning,
         request: &Request,
         bytes: usize,
         instants: fn(&Trajectory, usize) -> Vec<f64>,
         told: impl Fn(&Trajectory, Option<Error>, &Request, &[f64]) -> T,
         join: impl Fn(&mut T, T),
     ) -> Result<T, Refusal> {
-        let Beginning {
-            system,
-            start,
-            until,
-        } = self.beginning(request)?;
         let simulation = request.simulation(&system)?;
         let told_piece = |piece: &Trajectory, failure, request: &Request| {
             let times = within(piece, until, request.samples);

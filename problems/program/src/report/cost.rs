@@ -1,7 +1,7 @@
 //! Costs of effects → table, JSON, CSV.
 
 use super::table::{WIDTH, page};
-use super::words::brief;
+use super::words::Names;
 use crate::cost::{Cost, Costs, EffectCost, ModeCost};
 use comfy_table::{CellAlignment, ContentArrangement, Table};
 use core::ops::Range;
@@ -16,6 +16,8 @@ pub fn table(costs: &Costs, mut out: impl Write) -> io::Result<()> {
     let mut modes = page();
     modes.set_content_arrangement(ContentArrangement::Disabled);
     modes.set_header(["mode", "", "operations", "ns"]);
+    let every = costs.modes.iter().map(|mode| &mode.mode);
+    let names = Names::new(costs.description, every);
     for (index, mode) in costs.modes.iter().enumerate() {
         let Cost {
             operations,
@@ -23,7 +25,7 @@ pub fn table(costs: &Costs, mut out: impl Write) -> io::Result<()> {
         } = mode.cost;
         modes.add_row([
             (index + 1).to_string(),
-            brief(&mode.mode, costs.description),
+            names.brief(&mode.mode),
             operations.to_string(),
             format!("{nanoseconds:.0}"),
         ]);

@@ -3,9 +3,11 @@
 use super::json::Numbers;
 use super::table::{Decimals, page};
 use super::with_unit;
+use super::words::Names;
 use crate::feasible::Feasible;
 use crate::notation::{rate_unit, velocity_name};
 use crate::outcome::forces;
+use crate::outcome::rounding::ROUNDING;
 use comfy_table::{CellAlignment, ColumnConstraint, Width};
 use lagrange_core::error::Shortest;
 use lagrange_core::prelude::Instant;
@@ -20,6 +22,8 @@ struct Column {
     name: String,
     unit: String,
     values: Vec<(bool, f64)>,
+    /// What rounding leaves of a force, by the most that it holds in balance.
+    least: f64,
 }
 
 /// The unit of an acceleration: `m/s²`; empty for a coordinate without a unit.
@@ -35,7 +39,12 @@ fn columns(found: &Feasible) -> Vec<Column> {
     let d = found.description;
     let every =
         |value: &dyn Fn(&Instant<f64>) -> (bool, f64)| found.modes.iter().map(value).collect();
+    let held = |row: usize| {
+        let held = found.modes.iter().map(|now| now.held[row]);
+        held.fold(0.0, f64::max)
+    };
     let forces = forces(d).into_iter().map(|force| Column {
+        least: ROUNDING * held(force.row),
         values: every(&|now| (force.acts(d, &now.mode), now.forces[force.row])),
         unit: d.units.row(force.row).to_owned(),
         name: force.name,
@@ -46,10 +55,35 @@ fn columns(found: &Feasible) -> Vec<Column> {
         .enumerate()
         .map(|(i, coordinate)| Column {
             values: every(&|now| (true, now.acceleration[i])),
+            least: 0.0,
             unit: acceleration_unit(coordinate.unit),
             name: velocity_name(&velocity_name(coordinate.name)),
         });
     forces.chain(accelerations).collect()
+}
+
+/// What rounding leaves of the largest number of its unit is 0, and what it leaves of what a force holds in balance.
+fn forget_rounding(columns: &mut [Column]) {
+    let largest = |column: &Column| {
+        let values = column.values.iter();
+        values.fold(0.0, |a: f64, (_, value)| a.max(value.abs()))
+    };
+    let sizes: Vec<f64> = columns.iter().map(largest).collect();
+    let of_unit = |unit: &str| {
+        let alike = columns.iter().zip(&sizes).filter(|(c, _)| c.unit == unit);
+        alike.fold(0.0, |a: f64, (_, size)| a.max(*size))
+    };
+    let least = columns
+        .iter()
+        .map(|c| (ROUNDING * of_unit(&c.unit)).max(c.least));
+    let least: Vec<f64> = least.collect();
+    for (column, least) in columns.iter_mut().zip(least) {
+        for (_, value) in &mut column.values {
+            if value.abs() < least {
+                *value = 0.0;
+            }
+        }
+    }
 }
 
 /// Writes a table to read.
@@ -57,7 +91,8 @@ fn columns(found: &Feasible) -> Vec<Column> {
 /// # Errors
 /// Of `out`.
 pub fn table(found: &Feasible, mut out: impl Write) -> io::Result<()> {
-    let columns = columns(found);
+    let mut columns = columns(found);
+    forget_rounding(&mut columns);
     let mut table = page();
     let header = |column: &Column| format!("{}\n{}", column.name, column.unit);
     let names = columns.iter().map(header);
@@ -66,6 +101,8 @@ pub fn table(found: &Feasible, mut out: impl Write) -> io::Result<()> {
         .iter()
         .map(|column| Decimals::of(column.values.iter().map(|(_, value)| *value)))
         .collect();
+    let every = found.modes.iter().map(|now| &now.mode);
+    let names = Names::new(found.description, every);
     for (k, now) in found.modes.iter().enumerate() {
         let numbers = columns.iter().zip(&decimals).map(|(column, decimals)| {
             let (acts, value) = column.values[k];
@@ -75,7 +112,7 @@ pub fn table(found: &Feasible, mut out: impl Write) -> io::Result<()> {
                 String::new()
             }
         });
-        let mode = super::words::brief(&now.mode, found.description);
+        let mode = names.brief(&now.mode);
         table.add_row([(k + 1).to_string(), mode].into_iter().chain(numbers));
     }
     for (index, column) in table.column_iter_mut().enumerate() {
@@ -205,6 +242,23 @@ mod tests {
             "{text}"
         );
         assert!(text.contains("the others are not known"), "{text}");
+    }
+
+    /// A lorry on a ramp that its brake holds: a load of 1e-15 N beside 5 N moves nothing.
+    #[test]
+    fn what_is_rounding_beside_its_unit_is_shown_as_zero() {
+        let declared = "parameters(m: \"kg\" = 2, push: \"N\" = 1e-15, pull: \"N\" = 5), coordinates(x: \"m\", y: \"m\", turn: \"rad\"),
+            parameters(j: \"kg*m^2\" = 1, twist: \"N*m\" = 1e-15), kinetic = m/2 * (der(x)^2 + der(y)^2) + j/2 * der(turn)^2,
+            force(a: x = push), force(b: y = pull), force(c: turn = twist)";
+        let scene = crate::file::scene("held.lagrange", declared).expect("a declaration");
+        let found = scene.modes(&Default::default(), None).expect("modes");
+        let mut text = Vec::new();
+        table(&found, &mut text).expect("memory");
+        let text = String::from_utf8(text).expect("text");
+        let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
+        // Alone in its unit, 1e-15 rad/s² is what there is.
+        let told = "1 smooth 0.0000 2.5000 1.0000e-15";
+        assert!(text.lines().any(|line| words(line) == told), "{text}");
     }
 
     /// It falls 1.25 m in 0.5 s.

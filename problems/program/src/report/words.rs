@@ -1,5 +1,6 @@
-//! Modes in few words: what many contacts or frictions have in common is said once.
+//! Modes in few words: what many contacts or frictions have in common is said once, and of many conditions those that tell modes apart.
 
+use crate::outcome::Outcome;
 use lagrange_core::mode::{Direction, FrictionMode, Mode};
 use lagrange_core::system::Description;
 use std::collections::BTreeSet;
@@ -13,13 +14,72 @@ pub(super) const FEW: usize = 4;
 /// A name with what it does: singular and plural.
 type Doing = (&'static str, [&'static str; 2]);
 
-/// `rim closed, grip sticks`, and of many `all 4 closed, a and b stick, the other 2 slip`.
-pub(crate) fn brief(mode: &Mode, description: &Description) -> String {
-    let (contacts, frictions) = (contacts(mode, description), frictions(mode, description));
-    let mut told = together(&contacts, "contacts", contacts.len());
-    told.extend(together(&frictions, "frictions", frictions.len()));
-    told.extend(some(mode.sides(description).collect()));
-    joined(&told)
+/// What modes are called that are told of together: `rim closed, grip sticks`, and of many `all 4 closed, a and b stick, the other 2 slip`.
+/// No two of them are called alike because they differ in a condition.
+pub(crate) struct Names {
+    description: &'static Description,
+    /// The conditions that hold in the modes: all lists that occur.
+    known: Vec<Vec<&'static str>>,
+}
+
+impl Names {
+    /// Of these modes.
+    pub fn new<'a>(
+        description: &'static Description,
+        modes: impl IntoIterator<Item = &'a Mode>,
+    ) -> Self {
+        let mut known = Vec::new();
+        for mode in modes {
+            let sides = mode.sides(description).collect();
+            if !known.contains(&sides) {
+                known.push(sides);
+            }
+        }
+        Self { description, known }
+    }
+
+    /// Of the modes of a run, and of other runs of its scene that are seen beside it.
+    pub fn of<'a>(outcome: &'a Outcome, beside: impl IntoIterator<Item = &'a Outcome>) -> Self {
+        let same = |other: &&Outcome| core::ptr::eq(other.description, outcome.description);
+        let runs = beside.into_iter().filter(same).chain([outcome]);
+        let modes = runs.flat_map(|run| {
+            let events = run.events.iter();
+            let around = events.flat_map(|event| [&event.before, &event.after]);
+            run.phases.iter().map(|phase| &phase.mode).chain(around)
+        });
+        Self::new(outcome.description, modes)
+    }
+
+    /// What one of them is called.
+    pub fn brief(&self, mode: &Mode) -> String {
+        let description = self.description;
+        let (contacts, frictions) = (contacts(mode, description), frictions(mode, description));
+        let mut said = together(&contacts, "contacts", contacts.len());
+        said.extend(together(&frictions, "frictions", frictions.len()));
+        let sides: Vec<&str> = mode.sides(description).collect();
+        said.extend(some(&sides, &self.own(&sides)));
+        joined(&said)
+    }
+
+    /// Which of many conditions say in which mode they all hold. Each that is taken excludes most of the other modes.
+    fn own(&self, sides: &[&str]) -> Vec<usize> {
+        let mut others: Vec<&Vec<&str>> = self.known.iter().collect();
+        let mut own = Vec::new();
+        loop {
+            let excluded = |&place: &usize| {
+                let others = others.iter();
+                others.filter(|other| other[place] != sides[place]).count()
+            };
+            let best = (0..sides.len()).rev().max_by_key(excluded);
+            let Some(place) = best.filter(|place| excluded(place) > 0) else {
+                break;
+            };
+            others.retain(|other| other[place] == sides[place]);
+            own.push(place);
+        }
+        own.sort_unstable();
+        own
+    }
 }
 
 /// What a mode does that the one before it did not; `None` where they are the same.
@@ -38,22 +98,23 @@ pub(super) fn changed(before: &Mode, after: &Mode, description: &Description) ->
     let mut told = new(now, then, "contacts");
     told.extend(new(rubs, rubbed, "frictions"));
     let sides: BTreeSet<&str> = before.sides(description).collect();
-    let other = after
-        .sides(description)
-        .filter(|side| !sides.contains(side));
-    told.extend(some(other.collect()));
+    let other = after.sides(description);
+    let other: Vec<&str> = other.filter(|side| !sides.contains(side)).collect();
+    told.extend(some(&other, &[]));
     (!told.is_empty()).then(|| told.join(", "))
 }
 
-/// Conditions that hold, of many the first ones.
-fn some(sides: Vec<&str>) -> Vec<String> {
-    let told = match sides.len() > FEW {
-        true => MANY,
-        false => sides.len(),
+/// Conditions that hold: of many those at these places, or the first ones where these are none.
+fn some(sides: &[&str], own: &[usize]) -> Vec<String> {
+    let every = (0..sides.len()).collect::<Vec<_>>();
+    let told = match own {
+        _ if sides.len() <= FEW.max(own.len() + 1) => &every,
+        [] => &every[..MANY],
+        own => own,
     };
-    let mut some: Vec<String> = sides[..told].iter().map(|&side| side.to_owned()).collect();
-    if sides.len() > told {
-        some.push(format!("{} more conditions", sides.len() - told));
+    let mut some: Vec<String> = told.iter().map(|&place| sides[place].to_owned()).collect();
+    if sides.len() > told.len() {
+        some.push(format!("{} more conditions", sides.len() - told.len()));
     }
     some
 }
@@ -148,6 +209,33 @@ fn ranges(names: &[&str]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::request::Request;
+
+    /// A body passes eight steps, one after the other; where it is between two of them, two conditions say it.
+    #[test]
+    fn modes_of_many_conditions_have_different_names() {
+        let declared = "coordinates(x, y), kinetic = (der(x)^2 + der(y)^2) / 2, contact(floor: y >= 0), potential = 10 * y,
+            force(steps[k in 0..8]: if(x >= k + 1, 0.1, 0) along der(x)), start(go: x = 0, der(x) = 2), until = 4,";
+        let scene = crate::file::scene("steps.lagrange", declared).expect("a declaration");
+        let outcome = scene.run(&Request::default()).expect("a run");
+        let names = Names::of(&outcome, []);
+        let told = outcome.phases.iter().map(|phase| names.brief(&phase.mode));
+        let between = (1..8).map(|k| format!("x >= {k}, x < {}, 6 more conditions", k + 1));
+        let expected = ["x < 1, 7 more conditions".to_owned()];
+        let last = ["x >= 8, 7 more conditions".to_owned()];
+        let expected = expected.into_iter().chain(between).chain(last);
+        assert_eq!(
+            told.collect::<Vec<_>>(),
+            expected
+                .map(|sides| format!("floor closed, {sides}"))
+                .collect::<Vec<_>>()
+        );
+        let alone = Names::new(outcome.description, [&outcome.phases[0].mode]);
+        assert_eq!(
+            alone.brief(&outcome.phases[0].mode),
+            "floor closed, x < 1, x < 2, x < 3, 5 more conditions"
+        );
+    }
 
     #[test]
     fn many_are_told_together() {

@@ -216,6 +216,18 @@ pub enum Refusal {
 }
 
 impl Refusal {
+    /// Where no motion begins from a start, what a run says of that.
+    pub(crate) fn or_of_start(
+        self,
+        simulation: &Simulation<'_, AnySystem<f64>>,
+        start: &State<f64>,
+    ) -> Self {
+        match simulation.run(start.clone(), 0.0..0.0) {
+            Err(failure) => Refusal::Begin(failure.error),
+            Ok(_) => self,
+        }
+    }
+
     /// A refusal of `name`, with the nearest of the known names.
     pub fn unknown<'a>(
         what: &'static str,

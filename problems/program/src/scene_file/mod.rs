@@ -47,7 +47,7 @@ pub struct Outputs {
     pub output: Vec<PathBuf>,
     /// The picture to draw.
     pub plot: Option<PathBuf>,
-    /// What it shows; forces and coordinates if empty.
+    /// What it shows; forces, coordinates and outputs if empty.
     pub show: Vec<String>,
     /// Intervals to sample the motion at.
     pub samples: Option<usize>,

@@ -159,3 +159,30 @@ fn a_stiffness_that_changes_at_once_does_work() {
         assert!(closure(&run) < 1e-8, "{method}: {}", closure(&run));
     }
 }
+
+/// No force acts up to the kick, and the energies at the end are those before it.
+#[test]
+fn the_ledger_up_to_a_kick_closes() {
+    let book = |failure: Failure| {
+        let ledger = failure.trajectory.ledger().expect("a ledger");
+        agree("closure", ledger.closure, 0.0, 1e-12);
+        [ledger.end.kinetic, ledger.end.potential]
+    };
+    let ray = Ray {
+        mass: 3.0,
+        depth: -0.4,
+        step: 2.0,
+    };
+    let refused = Simulation::new(&ray).run(state(&[0.0; 2], &[0.5, -1.0]), 0.0..2.0);
+    let [kinetic, potential] = book(refused.expect_err("a kick"));
+    agree("kinetic energy", kinetic, 1.875, 1e-12);
+    assert_eq!(potential, 0.0);
+    let skater = Skater {
+        instant: 0.8,
+        wide: 5.0,
+        narrow: 2.0,
+    };
+    let refused = Simulation::new(&skater).run(state(&[0.0], &[3.0]), 0.0..2.0);
+    let [kinetic, _] = book(refused.expect_err("a kick"));
+    agree("kinetic energy", kinetic, 22.5, 1e-12);
+}

@@ -43,6 +43,15 @@ pub fn escaped(text: &str) -> String {
 
 const SPACE: &str = "<mspace width=\"0.17em\"/>";
 
+/// A brace as high as its cell: four arcs and two lines. Browsers stretch the letter with a font for mathematics only, and many systems have none.
+const BRACE: &str = "padding:0;width:.55em;print-color-adjust:exact;background:\
+    radial-gradient(circle at 100% 100%,#0000 .24em,currentColor .25em .3em,#0000 .31em) 100% 0/.3em .3em no-repeat,\
+    radial-gradient(circle at 100% 0,#0000 .24em,currentColor .25em .3em,#0000 .31em) 100% 100%/.3em .3em no-repeat,\
+    radial-gradient(circle at 0 0,#0000 .24em,currentColor .25em .3em,#0000 .31em) 0 calc(50% - .15em)/.3em .3em no-repeat,\
+    radial-gradient(circle at 0 100%,#0000 .24em,currentColor .25em .3em,#0000 .31em) 0 calc(50% + .15em)/.3em .3em no-repeat,\
+    linear-gradient(currentColor,currentColor) .25em .3em/.05em calc(50% - .6em) no-repeat,\
+    linear-gradient(currentColor,currentColor) .25em calc(100% - .3em)/.05em calc(50% - .6em) no-repeat";
+
 impl Notation for MathMl {
     fn letter(&self, letter: &Letter) -> String {
         let base = format!("<mi>{}</mi>", escaped(&letter.base));
@@ -160,12 +169,19 @@ impl Notation for MathMl {
     }
 
     fn cases(&self, rows: &[(String, String)], otherwise: &str) -> String {
-        let row = |(condition, then): &(String, String)| {
-            format!("<mtr><mtd>{then}</mtd><mtd><mtext>if </mtext>{condition}</mtd></mtr>")
+        let row = |then: &str, when: &str| {
+            format!("<mtr><mtd>{then}</mtd><mtd style=\"text-align:left\">{when}</mtd></mtr>")
         };
-        let rows: String = rows.iter().map(row).collect();
+        // A space at the end of a text is dropped, unless it is one that does not break.
+        let rows = rows
+            .iter()
+            .map(|(condition, then)| row(then, &format!("<mtext>if\u{a0}</mtext>{condition}")));
+        let rows: String = rows.collect();
+        let last = row(otherwise, "<mtext>else</mtext>");
+        // The letter itself is there for who copies it.
+        let letter = "<mo stretchy=\"false\" style=\"opacity:0\">{</mo>";
         format!(
-            "<mrow><mo>{{</mo><mtable>{rows}<mtr><mtd>{otherwise}</mtd><mtd><mtext>else</mtext></mtd></mtr></mtable></mrow>"
+            "<mtable><mtr><mtd style=\"{BRACE}\">{letter}</mtd><mtd style=\"padding:0\"><mtable>{rows}{last}</mtable></mtd></mtr></mtable>"
         )
     }
 

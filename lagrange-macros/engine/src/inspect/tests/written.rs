@@ -134,6 +134,30 @@ fn potential(expression: TokenStream) -> String {
     print::text::formula(&d.potential.right)
 }
 
+/// A row of a table is as high as its highest cell: the brace as all the cases beside it.
+#[test]
+fn a_brace_stands_in_one_row_with_its_cases() {
+    let d = derivation(quote! {
+        #[lagrange(coordinates(x), kinetic = m/2 * der(x)^2, potential = if(x >= 0, a, if(x >= -b, b, x)))]
+        struct Particle { m: f64, a: f64, b: f64 }
+    });
+    let page = print::mathml::formula(&d.potential.right);
+    let (brace, cases) = page.split_once(">{</mo></mtd>").expect("a brace");
+    assert_eq!(
+        [brace, cases].map(|part| part.matches("<mtr>").count()),
+        [1, 3]
+    );
+    assert_eq!(
+        cases.matches("<mtext>if\u{a0}</mtext>").count(),
+        2,
+        "{cases}"
+    );
+    assert!(
+        cases.ends_with("</mtr></mtable></mtd></mtr></mtable></math>"),
+        "{cases}"
+    );
+}
+
 #[test]
 fn expressions_as_a_person_writes_them() {
     let check =

@@ -5,7 +5,7 @@ use crate::film::Film;
 use crate::report::one_mode;
 use crate::report::picture::palette::{self, colour};
 use crate::report::picture::{self, Painter, Picture, WIDTH, label, pictures, stages};
-use crate::report::words::brief;
+use crate::report::words::Names;
 use lagrange_engine::inspect::print::mathml::escaped;
 use std::fmt::Write;
 
@@ -39,6 +39,8 @@ pub(super) struct Layout<'a> {
 pub(super) struct Place<'a> {
     title: &'a str,
     pub film: &'a Film,
+    /// What its modes are called.
+    names: Names,
     pub picture: Option<Picture>,
     /// Of a scene in space, in place of a picture.
     pub painter: Option<Painter>,
@@ -83,6 +85,7 @@ impl<'a> Layout<'a> {
         let place = |(i, (panel, (picture, painter))): (usize, (&Panel<'a>, Pair))| Place {
             title: panel.title,
             film: panel.film,
+            names: Names::of(&panel.film.outcome, films.iter().map(|film| &film.outcome)),
             picture,
             painter,
             x: GAP + i as f64 * (WIDTH + GAP),
@@ -147,8 +150,8 @@ impl<'a> Layout<'a> {
         let one = one_mode(outcome.description);
         match phase {
             Some(_) if one => String::new(),
-            Some(phase) if over => format!("{} (ended)", brief(&phase.mode, outcome.description)),
-            Some(phase) => brief(&phase.mode, outcome.description),
+            Some(phase) if over => format!("{} (ended)", panel.names.brief(&phase.mode)),
+            Some(phase) => panel.names.brief(&phase.mode),
             None => String::new(),
         }
     }
@@ -158,7 +161,7 @@ impl<'a> Layout<'a> {
         let mut seen: Vec<String> = Vec::new();
         for panel in &self.panels {
             for phase in &panel.film.outcome.phases {
-                let other = brief(&phase.mode, panel.film.outcome.description);
+                let other = panel.names.brief(&phase.mode);
                 if other == words {
                     return seen.iter().position(|s| *s == other).unwrap_or(seen.len());
                 }
@@ -283,7 +286,7 @@ impl Place<'_> {
     pub fn bar(&self, layout: &Layout, out: &mut String) {
         let outcome = &self.film.outcome;
         for phase in &outcome.phases {
-            let words = brief(&phase.mode, outcome.description);
+            let words = self.names.brief(&phase.mode);
             let [from, to] = [phase.from, phase.to].map(|t| WIDTH * layout.part(t));
             let _ = writeln!(
                 out,

@@ -7,7 +7,7 @@ use crate::film::Film;
 use crate::number::significant;
 use crate::report::frames::{SPEEDS, span, usual_speed};
 use crate::report::picture::{Picture, Stage, pictures, stages};
-use crate::report::words::brief;
+use crate::report::words::Names;
 use serde::Serialize;
 use std::num::NonZeroUsize;
 
@@ -74,7 +74,11 @@ pub(super) fn data(runs: &[Shown], speed: Option<f64>) -> Data {
     };
     let seen = pictures(&films).into_iter().zip(stages(&films));
     let runs = runs.iter().zip(seen);
-    let runs = runs.map(|(shown, seen)| run(shown, seen, first(&shown.film)));
+    let runs = runs.map(|(shown, seen)| {
+        let outcomes = films.iter().map(|film| &film.outcome);
+        let names = Names::of(&shown.film.outcome, outcomes);
+        run(shown, seen, first(&shown.film), &names)
+    });
     Data {
         schema: "lagrange.report.3",
         speeds,
@@ -88,13 +92,14 @@ fn run(
     shown: &Shown,
     (picture, space): (Option<Picture>, Option<Stage>),
     first: Option<&Film>,
+    names: &Names,
 ) -> Run {
     let outcome = &shown.film.outcome;
     let description = outcome.description;
     let phases = outcome.phases.iter().map(|phase| Span {
         from: significant(phase.from),
         to: significant(phase.to),
-        mode: brief(&phase.mode, description),
+        mode: names.brief(&phase.mode),
     });
     let events = outcome.events.iter().map(|event| Happening {
         time: significant(event.time),

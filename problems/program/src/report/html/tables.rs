@@ -5,7 +5,7 @@ use crate::notation::impulse_unit;
 use crate::notation::{is_angle, symbol};
 use crate::outcome::rounding::ROUNDING;
 use crate::outcome::{Force, forces};
-use crate::report::words::brief;
+use crate::report::words::Names;
 use lagrange_core::error::Shortest;
 use lagrange_core::prelude::*;
 use lagrange_engine::inspect::print::mathml::escaped;
@@ -88,6 +88,7 @@ fn events(run: &Shown) -> String {
         all.iter()
             .map(|force| named(&force.name, description.units.row(force.row))),
     );
+    let names = Names::of(outcome, []);
     let row = |event: &Event<f64>| {
         let time = event.time;
         let mut row = vec![
@@ -100,7 +101,7 @@ fn events(run: &Shown) -> String {
                 event.subject.name(description),
                 event.kind
             )),
-            escaped(&brief(&event.after, description)),
+            escaped(&names.brief(&event.after)),
         ];
         row.extend(coordinates.iter().zip(&event.state.q).map(|(c, q)| {
             short(match is_angle(c) {

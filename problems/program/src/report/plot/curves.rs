@@ -1,10 +1,10 @@
-//! Which curves a picture has: what was asked for or, if nothing was, one panel of forces and one per unit of the coordinates.
+//! Which curves a picture has: what was asked for or, if nothing was, panels of forces, coordinates and outputs, one per unit.
 
 use super::COLOURS;
 use crate::outcome::{Outcome, Sample};
 use crate::quantity::{Quantity, Show};
 use crate::report::telling;
-use crate::report::words::{SMOOTH, brief};
+use crate::report::words::{Names, SMOOTH};
 use lagrange_core::prelude::EventKind;
 use lagrange_core::system::Description;
 
@@ -40,12 +40,12 @@ pub(super) struct Bands {
 }
 
 pub(super) fn bands(outcome: &Outcome) -> Bands {
-    let mut names: Vec<String> = Vec::new();
+    let (called, mut names) = (Names::of(outcome, []), Vec::new());
     let spans: Vec<_> = outcome
         .phases
         .iter()
         .map(|phase| {
-            let name = brief(&phase.mode, outcome.description);
+            let name = called.brief(&phase.mode);
             let mode = names
                 .iter()
                 .position(|known| *known == name)
@@ -68,7 +68,7 @@ pub(super) fn shown(d: &Description, shows: &[Show]) -> Vec<Panel> {
     shows.iter().flat_map(of_one).collect()
 }
 
-/// Forces and coordinates over time. Forces that never act in any of the runs are left out.
+/// Forces, coordinates and outputs over time, a panel for each unit of each. Forces that never act in any of the runs are left out.
 pub(super) fn usual(outcomes: &[&Outcome], d: &Description) -> Vec<Panel> {
     let acts = |quantity: &Quantity| {
         let mut samples = outcomes.iter().flat_map(|outcome| &outcome.samples);
@@ -81,11 +81,13 @@ pub(super) fn usual(outcomes: &[&Outcome], d: &Description) -> Vec<Panel> {
         .collect();
     let mut panels = by_unit(d, &Quantity::Time, forces);
     let told = telling(d);
-    // Outputs say what the quaternions that are left out would have said.
-    let outputs = match told.len() < d.coordinates.len() {
-        true => (0..d.observes.len()).map(Quantity::Output).collect(),
-        false => Vec::new(),
+    // An output of a coordinate by its own name is that coordinate.
+    let is_told = |output: &usize| {
+        let name = d.observes[*output].name;
+        told.iter().any(|&i| d.coordinates[i].name == name)
     };
+    let outputs = (0..d.observes.len()).filter(|output| !is_told(output));
+    let outputs = outputs.map(Quantity::Output).collect();
     let positions = told.into_iter().map(Quantity::Position);
     let (angles, others): (Vec<_>, Vec<_>) = positions.partition(|q| q.kind(d) == "angle");
     for quantities in [angles, others, outputs] {
@@ -316,6 +318,22 @@ mod tests {
         }
         let still = super::pieces(&outcome, &Quantity::Time, &Quantity::Position(1));
         assert!(still[0].iter().all(|(_, x)| *x == 0.0));
+    }
+
+    #[test]
+    fn what_is_observed_is_drawn_once() {
+        let outcome = plotted(
+            "parameters(m: \"kg\" = 1, g: \"m/s^2\" = 10, l: \"m\" = 2), coordinates(theta: \"rad\", s: \"m\"),
+             kinetic = m/2 * (l^2 * der(theta)^2 + der(s)^2), potential = -m * g * l * cos(theta),
+             observe(height = -l * cos(theta), s, speed = l * der(theta), across = l * sin(theta)), start(up: theta = 1), until = 1",
+        );
+        let d = outcome.description;
+        let names = |panel: &Panel| {
+            let names = panel.curves.iter().map(|curve| curve.quantity.name(d));
+            names.collect::<Vec<_>>().join(" ")
+        };
+        let panels: Vec<String> = usual(&[&outcome], d).iter().map(names).collect();
+        assert_eq!(panels, ["θ", "s", "height across", "speed"]);
     }
 
     #[test]

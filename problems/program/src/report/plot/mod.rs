@@ -87,8 +87,8 @@ pub struct Run<'a> {
     pub outcome: &'a Outcome,
 }
 
-/// Runs of one scene upon each other, as the text of an SVG file: what is asked for or, if nothing is, forces and coordinates
-/// over time.
+/// Runs of one scene upon each other, as the text of an SVG file: what is asked for or, if nothing is, forces, coordinates and
+/// outputs over time.
 ///
 /// # Errors
 /// A sentence, if there is nothing to draw or the drawing fails.

@@ -1,7 +1,7 @@
 //! Outcome → lines of the story: its start, a line for each switch, its end.
 
 use crate::outcome::{Force, Outcome, Sample};
-use crate::report::words::{FEW, MANY, brief, changed};
+use crate::report::words::{FEW, MANY, Names, changed};
 use lagrange_core::mode::Mode;
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
@@ -19,11 +19,45 @@ pub(super) struct Line {
     pub lower: Vec<Option<f64>>,
     pub impulse: bool,
     pub mode: String,
+    /// So many lines like it, before it, are left out.
+    pub left_out: usize,
+}
+
+/// So many impacts of one contact in a row are told one by one.
+const SERIES: usize = 8;
+
+/// Of a longer series of impacts in one mode the first line and the last.
+fn folded(lines: Vec<Line>) -> Vec<Line> {
+    let goes_on = |a: &Line, b: &Line| {
+        let one = a.impulse && b.impulse && a.event == b.event;
+        one && a.mode.is_empty()
+    };
+    let series = lines.chunk_by(goes_on).map(<[Line]>::len);
+    let series: Vec<usize> = series.collect();
+    let mut lines = lines.into_iter();
+    let mut folded = Vec::new();
+    for count in series {
+        if count <= SERIES {
+            folded.extend(lines.by_ref().take(count));
+            continue;
+        }
+        folded.extend(lines.next());
+        folded.extend(lines.nth(count - 2).map(|last| Line {
+            left_out: count - 2,
+            ..last
+        }));
+    }
+    folded
 }
 
 /// The lines of an outcome, with the forces of these `items`.
 pub(super) fn lines(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
-    let teller = Teller { outcome, items };
+    let names = Names::of(outcome, []);
+    let teller = Teller {
+        outcome,
+        items,
+        names,
+    };
     let groups = instants(&outcome.events);
     let first = groups.first().map(|(_, group)| *group);
     let first = first.filter(|group| outcome.is_decided_at_start(&group[0]));
@@ -37,13 +71,14 @@ pub(super) fn lines(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
     let switches = told.filter_map(|(index, group)| teller.switch(*index, group));
     let mut lines: Vec<Line> = start.into_iter().chain(switches).collect();
     lines.extend(teller.end());
-    lines
+    folded(lines)
 }
 
 /// What the lines are told of.
 struct Teller<'a> {
     outcome: &'a Outcome,
     items: &'a [Force],
+    names: Names,
 }
 
 impl Teller<'_> {
@@ -78,7 +113,8 @@ impl Teller<'_> {
             upper: self.acting(&sample.forces, &sample.mode),
             lower: Vec::new(),
             impulse: false,
-            mode: brief(&sample.mode, self.outcome.description),
+            mode: self.names.brief(&sample.mode),
+            left_out: 0,
         }
     }
 
@@ -90,13 +126,13 @@ impl Teller<'_> {
             EventKind::Impact => Line {
                 state: self.known(&event.state.q, self.before(0)),
                 upper: self.acting(&event.forces, &event.before),
-                mode: brief(&event.before, description),
+                mode: self.names.brief(&event.before),
                 ..start
             },
             _ => Line {
                 event: format!("start\n{}", named(group, description)),
                 upper: self.acting(&event.forces_after, &event.after),
-                mode: brief(&event.after, description),
+                mode: self.names.brief(&event.after),
                 ..start
             },
         }
@@ -138,9 +174,10 @@ impl Teller<'_> {
             mode: match (changed, event.kind) {
                 (Some(changed), _) if impulse => format!("→ {changed}"),
                 (Some(changed), _) => format!("\n→ {changed}"),
-                (None, EventKind::Stop) => brief(&event.after, description),
+                (None, EventKind::Stop) => self.names.brief(&event.after),
                 (None, _) => String::new(),
             },
+            left_out: 0,
         })
     }
 

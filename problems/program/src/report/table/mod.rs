@@ -9,6 +9,7 @@ mod story;
 
 use super::words::{FEW, MANY};
 use crate::outcome::Outcome;
+use crate::quantity::Quantity;
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
 use decimals::time;
 use lagrange_core::prelude::*;
@@ -34,7 +35,13 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
     if !left_out.is_empty() {
         writeln!(out, "Without {}.\n", left_out.join(", "))?;
     }
-    writeln!(out, "{}", story(outcome).trim_fmt())?;
+    for (k, table) in story(outcome).iter().enumerate() {
+        let apart = if k > 0 { "\n" } else { "" };
+        writeln!(out, "{apart}{}", table.trim_fmt())?;
+    }
+    if let Some(moved) = moved(outcome) {
+        writeln!(out, "\n{moved}")?;
+    }
     let open = outcome.undetermined();
     if !open.is_empty() {
         let depends = match outcome.slides_undetermined() {
@@ -107,6 +114,33 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
         writeln!(out, "{certificate}")?;
     }
     writeln!(out, "\n{}", work(outcome))
+}
+
+/// What of the start has been moved, and how far, if anything was that its digits show.
+fn moved(outcome: &Outcome) -> Option<String> {
+    let (asked, sample) = (outcome.asked.as_ref()?, outcome.first()?);
+    let at_start = outcome.events.first();
+    let at_start = at_start.filter(|event| event.time == sample.time);
+    let taken = at_start.map_or(&sample.state, |event| &event.state);
+    let d = outcome.description;
+    let places = 0..d.coordinates.len();
+    let numbers = |state: &State<f64>| [state.q.clone(), state.v.clone()].concat();
+    let quantities = places.clone().map(Quantity::Position);
+    let quantities = quantities.chain(places.map(Quantity::Velocity));
+    let pairs = numbers(asked).into_iter().zip(numbers(taken));
+    let told = quantities
+        .zip(pairs)
+        .filter_map(|(quantity, (asked, taken))| {
+            let [asked, taken] = [asked, taken].map(|x| x * quantity.scale(d));
+            let by = Decimals::of([taken - asked]).show(taken - asked);
+            let decimals = Decimals::of([asked, taken]);
+            let shows = decimals.show(asked) != decimals.show(taken);
+            let told = format!("{} by {by} {}", quantity.name(d), quantity.unit(d));
+            shows.then(|| told.trim_end().to_owned())
+        });
+    let told: Vec<String> = told.collect();
+    let told = told.join(", ");
+    (!told.is_empty()).then(|| format!("The start was moved onto what holds there: {told}."))
 }
 
 /// Of what a run takes one of several, and where the others are told.
@@ -266,6 +300,103 @@ mod tests {
         let text = String::from_utf8(text).expect("text");
         let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
         text.lines().map(words).collect()
+    }
+
+    /// Nine blocks on a shelf: more numbers than a line has stand below, with the times.
+    #[test]
+    fn no_line_of_a_story_is_wider_than_a_page() {
+        let declared = "parameters(m = 1, g = 10), coordinates(height[9]), kinetic = sum(k in 0..9: m/2 * der(height[k])^2),
+            potential = sum(k in 0..9: (k + 1) * g * height[k]), contact(shelf[k in 0..9]: height[k] >= 0),
+            mark(noon: t - 0.5), start(lying: height[0] = 0), until = 1";
+        let scene = scene("shelf.lagrange", declared).expect("a declaration");
+        let outcome = scene.run(&Request::default()).expect("a run");
+        let mut text = Vec::new();
+        super::write(&outcome, &mut text).expect("memory");
+        let text = String::from_utf8(text).expect("text");
+        let story = text.split("energy").next().unwrap_or_default();
+        let widest = story
+            .lines()
+            .map(|line| line.trim_end().chars().count())
+            .max();
+        assert!(widest <= Some(usize::from(super::WIDTH)), "{text}");
+        let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
+        let noon: Vec<String> = story
+            .lines()
+            .map(words)
+            .filter(|line| line.contains("noon"))
+            .collect();
+        let loads = |from: u32, to: u32| {
+            let loads = (from..to).map(|k| format!("{:.3}", 10.0 * f64::from(k)));
+            loads.collect::<Vec<_>>().join(" ")
+        };
+        assert!(noon.len() > 1, "{text}");
+        assert!(
+            noon.iter().any(|line| line.contains(&loads(1, 4))),
+            "{noon:#?}"
+        );
+        assert!(
+            story
+                .lines()
+                .filter(|line| line.contains("all 9 contacts"))
+                .count()
+                >= 2,
+            "{text}"
+        );
+    }
+
+    /// A bead beside its ring, and a roller that does not roll: each is moved by least squares of the masses, here one.
+    #[test]
+    fn how_far_a_start_is_moved_is_told() {
+        let declared = "coordinates(x, y, phi), kinetic = (der(x)^2 + der(y)^2 + der(phi)^2) / 2, constraint(ring: x^2 + y^2 == 25),
+            constraint(rolls: der(phi) == 3), start(out: x = 3.3, y = 4.4), until = 0.1";
+        let scene = scene("ring.lagrange", declared).expect("a declaration");
+        let told = |project: bool| {
+            let request = Request {
+                project,
+                ..Request::default()
+            };
+            let outcome = scene.run(&request).expect("a run");
+            let mut text = Vec::new();
+            super::write(&outcome, &mut text).expect("memory");
+            let text = String::from_utf8(text).expect("text");
+            let mut lines = text.lines();
+            lines
+                .find(|line| line.starts_with("The start was moved"))
+                .map(str::to_owned)
+        };
+        assert_eq!(told(false), None);
+        let expected = "The start was moved onto what holds there: x by -0.30000, y by -0.40000, dφ/dt by 171.89 °/s.";
+        assert_eq!(told(true).as_deref(), Some(expected));
+    }
+
+    /// A ball that keeps 0.9 of its speed, g = 8: from 1 m it falls 0.5 s, and the k-th flight takes 0.9^k s.
+    #[test]
+    fn of_a_long_series_of_impacts_the_first_and_the_last_are_told() {
+        let declared = "coordinates(y), kinetic = der(y)^2 / 2, potential = 8 * y, contact(floor: y >= 0, restitution = 0.9),
+            start(drop: y = 1), until = 7.3";
+        let lines = story(declared);
+        let impacts: Vec<&String> = lines
+            .iter()
+            .filter(|line| line.contains("floor impact"))
+            .collect();
+        let last = (1..14).fold(0.5, |t, k| t + 0.9_f64.powi(k));
+        assert_eq!(impacts.len(), 2, "{lines:#?}");
+        assert!(
+            impacts[0].starts_with("0.500000 floor impact"),
+            "{lines:#?}"
+        );
+        assert!(
+            impacts[1].starts_with(&format!("{last:.6} floor impact")),
+            "{last} {lines:#?}"
+        );
+        assert!(lines.contains(&"12 more".to_owned()), "{lines:#?}");
+        let few = story(&declared.replace("7.3", "5"));
+        assert_eq!(
+            few.iter()
+                .filter(|line| line.contains("floor impact"))
+                .count(),
+            7
+        );
     }
 
     /// A bead on a hoop that is turned: T has no form quadratic in the velocity, and v ∂T/∂v − T + V stays.

@@ -12,7 +12,7 @@ use crate::report::telling;
 use comfy_table::{CellAlignment, ColumnConstraint, Table, Width};
 use lagrange_core::system::Description;
 
-/// So many numbers, forces among them, stand in a line of the story beside its mode.
+/// So many numbers at most, forces among them, stand in a line of the story.
 const NUMBERS: usize = 6;
 
 /// A coordinate or an output in the story.
@@ -200,56 +200,83 @@ fn told(outcome: &Outcome) -> Vec<Force> {
         .collect()
 }
 
-/// The table of what happened.
-pub(super) fn story(outcome: &Outcome) -> Table {
+/// The table of what happened; where there are many numbers, one table below the other, each with the times and the events, the last with the mode.
+pub(super) fn story(outcome: &Outcome) -> Vec<Table> {
     let items = told(outcome);
     let mut lines = lines(outcome, &items);
     forget_rounding(&mut lines, &items, outcome.description);
-    let columns = shown(outcome.description, items.len());
-    let estimated = lines.iter().any(|line| line.error.is_some());
-    let mut table = page();
-    table.set_header(header(outcome, &items, &columns, estimated));
-    let of_coordinates = columns.iter();
-    let of_coordinates: Vec<Decimals> = of_coordinates
-        .map(|column| column.decimals(&lines, outcome))
-        .collect();
-    let of_forces = decimals_of_forces(&items, &lines, outcome);
+    let numbers = numbers(outcome, &items, &lines);
+    let blocks = numbers.chunks(NUMBERS);
+    let blocks = match numbers.is_empty() {
+        true => vec![&numbers[..]],
+        false => blocks.collect(),
+    };
+    let last = blocks.len() - 1;
+    let tables = blocks.iter().enumerate();
+    tables
+        .map(|(k, block)| table(outcome, &lines, block, k == last))
+        .collect()
+}
+
+/// A column of numbers: its head, and a cell for each line.
+struct Numbers {
+    head: String,
+    cells: Vec<String>,
+}
+
+/// Coordinates and outputs, then forces.
+fn numbers(outcome: &Outcome, items: &[Force], lines: &[Line]) -> Vec<Numbers> {
     let units = &outcome.description.units;
-    for line in &lines {
+    let columns = shown(outcome.description, items.len());
+    let states = columns.iter().map(|column| {
+        let decimals = column.decimals(lines, outcome);
+        let cell = |line: &Line| column.of(line).map_or(String::new(), |x| decimals.show(x));
+        Numbers {
+            head: column.head.clone(),
+            cells: lines.iter().map(cell).collect(),
+        }
+    });
+    let of_forces = decimals_of_forces(items, lines, outcome);
+    let forces = items.iter().zip(of_forces).enumerate();
+    let forces = forces.map(|(k, (item, decimals))| {
+        let unit = units.row(item.row);
+        let cell = |line: &Line| two_lines(line, k, decimals, unit);
+        Numbers {
+            head: format!("{}\n{unit}", item.name),
+            cells: lines.iter().map(cell).collect(),
+        }
+    });
+    states.chain(forces).collect()
+}
+
+/// The lines with some of the numbers, and with the mode if asked for.
+fn table(outcome: &Outcome, lines: &[Line], numbers: &[Numbers], with_mode: bool) -> Table {
+    let estimated = lines.iter().any(|line| line.error.is_some());
+    let times = 1 + usize::from(estimated);
+    let mut table = page();
+    let mut header = vec!["t\ns", "±\ns"];
+    header.truncate(times);
+    header.push("event");
+    header.extend(numbers.iter().map(|number| &number.head[..]));
+    header.extend(with_mode.then_some("mode"));
+    table.set_header(header);
+    for (i, line) in lines.iter().enumerate() {
+        if line.left_out > 0 {
+            let mut row = vec![String::new(); times];
+            row.push(format!("{} more", line.left_out));
+            table.add_row(row);
+        }
         let mut row = vec![time(line.time, outcome.lasts())];
         if estimated {
             row.push(line.error.map_or(String::new(), off));
         }
         row.push(line.event.clone());
-        let numbers = columns.iter().zip(&of_coordinates);
-        row.extend(numbers.map(|(column, decimals)| {
-            let number = column.of(line);
-            number.map_or(String::new(), |x| decimals.show(x))
-        }));
-        let forces = items.iter().zip(&of_forces).enumerate();
-        row.extend(
-            forces.map(|(k, (item, decimals))| two_lines(line, k, *decimals, units.row(item.row))),
-        );
-        row.push(line.mode.clone());
+        row.extend(numbers.iter().map(|number| number.cells[i].clone()));
+        row.extend(with_mode.then(|| line.mode.clone()));
         table.add_row(row);
     }
-    let times = 1 + usize::from(estimated);
-    lay_out(&mut table, &lines, times, columns.len() + items.len());
+    lay_out(&mut table, lines, times, numbers.len());
     table
-}
-
-fn header(outcome: &Outcome, items: &[Force], columns: &[Column], estimated: bool) -> Vec<String> {
-    let units = &outcome.description.units;
-    let mut header = vec!["t\ns".to_owned()];
-    if estimated {
-        header.push("±\ns".to_owned());
-    }
-    header.push("event".to_owned());
-    header.extend(columns.iter().map(|column| column.head.clone()));
-    let forces = items.iter();
-    header.extend(forces.map(|item| format!("{}\n{}", item.name, units.row(item.row))));
-    header.push("mode".to_owned());
-    header
 }
 
 /// How far off a time is.
@@ -276,24 +303,16 @@ fn two_lines(line: &Line, k: usize, decimals: Decimals, unit: &str) -> String {
 
 /// The widths of the columns: `times`, the event, so many `numbers`, the mode.
 fn lay_out(table: &mut Table, lines: &[Line], times: usize, numbers: usize) {
-    // Beside so many numbers that they are wider than a page, texts need not be narrow.
-    let wide = numbers > NUMBERS;
     let (event, mode) = (times, times + 1 + numbers);
     for (index, column) in table.column_iter_mut().enumerate() {
         column.set_padding((1, 0));
         if index == event {
             // No name is broken: the longest word and the space before it.
-            let of = |line: &Line| match wide {
-                true => longest(line.event.lines()),
-                false => longest(line.event.split_whitespace()),
-            };
+            let of = |line: &Line| longest(line.event.split_whitespace());
             let least = lines.iter().map(of).max().unwrap_or(0) + 1;
             column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(least)));
         } else if index == mode {
-            let most = if wide { 40 } else { 18 };
-            let modes = lines.iter().flat_map(|line| line.mode.lines());
-            let least = longest(modes).clamp(18, most);
-            column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(least)));
+            column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(18)));
         } else {
             column.set_cell_alignment(CellAlignment::Right);
             column.set_constraint(ColumnConstraint::ContentWidth);
