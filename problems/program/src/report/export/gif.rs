@@ -20,8 +20,10 @@ impl Palette {
     pub(super) fn of(rasters: impl Iterator<Item = io::Result<Raster>>) -> io::Result<Self> {
         let mut counts: HashMap<[u8; 3], usize> = HashMap::new();
         for raster in rasters {
-            for colour in raster?.colours() {
-                *counts.entry(colour).or_default() += 1;
+            // Neighbours mostly have one colour, which is looked up once.
+            let colours: Vec<[u8; 3]> = raster?.colours().collect();
+            for alike in colours.chunk_by(|one, next| one == next) {
+                *counts.entry(alike[0]).or_default() += alike.len();
             }
         }
         let mut counts: Vec<([u8; 3], usize)> = counts.into_iter().collect();
