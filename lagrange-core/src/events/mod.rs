@@ -8,6 +8,7 @@
 //! before, so the caller [`deflate`]s guards known to be zero there, and treats one that starts negative as an event at s = 0.
 
 mod bernstein;
+mod bracket;
 mod isolate;
 mod refine;
 mod root_filter;
@@ -15,6 +16,7 @@ mod root_filter;
 mod tests;
 
 pub use bernstein::MAX_DEGREE;
+pub use bracket::{bracket, zero_between};
 pub use isolate::{clearance, deflate, dip, find_root, find_root_until, roots, turns};
 pub use root_filter::keeps_its_sign;
 

@@ -346,3 +346,26 @@ fn a_bound_keeps_the_sign_only_of_polynomials_without_roots() {
     assert!(!keeps_its_sign(&[1e-12, 1.0, 0.0, 0.0], 0.0, 1e-10));
     assert!(!keeps_its_sign(&[0.25, -1.0, 1.0, 0.0], 1.0, 1e-10));
 }
+
+/// a − eˢ falls through zero at ln a, from wherever the search begins and however far it thinks that is.
+#[test]
+fn functions_vanish_between_samples() {
+    for a in [1.02, 1.5, 2.0, 2.7] {
+        let fall = |s: f64| Some(a - s.exp());
+        for start in [0.0, 0.3, 0.7, 1.0] {
+            for reach in [1e-9, 1e-3, 0.4] {
+                let first = (start, a - f64::exp(start));
+                let [before, after] = bracket(first, reach, fall).expect("values");
+                assert!(before.1 >= 0.0 && after.1 <= 0.0, "{a} {start} {reach}");
+                let zero = zero_between([before, after], fall).expect("values");
+                assert!(
+                    (zero - f64::ln(a)).abs() < 1e-15,
+                    "{a} {start} {reach}: {zero}"
+                );
+            }
+        }
+    }
+    let rises = bracket((0.5, 1.0), 0.1, |s| Some(s + 0.5)).expect("values");
+    assert!(rises[1].1 > 0.0);
+    assert!(bracket((0.5, 1.0), 0.1, |_| None).is_none());
+}

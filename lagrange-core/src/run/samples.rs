@@ -12,7 +12,7 @@ use super::taylor_step::SHARPENED;
 use super::{Run, rest_under_load};
 use crate::arithmetic::Scalar;
 use crate::dynamics::EvaluationError;
-use crate::events::{Direction, Root, RootList, roots};
+use crate::events::{Direction, Root, RootList, bracket, roots, zero_between};
 use crate::integrate::polynomial_derivative as slope;
 use crate::integrate::taylor::{defect, worse};
 use crate::modes::guard::Guard;
@@ -164,8 +164,6 @@ impl<T: Scalar> Run<T> {
         const SHARP: f64 = 1e-10;
         /// Secants that come closer make a guard smaller by this factor at least.
         const CLOSER: f64 = 0.1;
-        const MOST_PROBES: usize = 12;
-        const MOST_SECANTS: usize = 60;
         if root.grazing {
             return None;
         }
@@ -212,49 +210,13 @@ impl<T: Scalar> Run<T> {
             }
             nearest = (s, value);
         }
-        let (start, first) = nearest;
-        let mut reach = (2.0 * first / rate).abs().max(4.0 * f64::EPSILON * start);
-        let [mut before, mut after] = [nearest; 2];
-        for _ in 0..MOST_PROBES {
-            if before.1 >= 0.0 && after.1 <= 0.0 {
-                break;
-            }
-            let (s, probe) = if first > 0.0 {
-                ((start + reach).min(1.0), &mut after)
-            } else {
-                ((start - reach).max(0.0), &mut before)
-            };
-            *probe = (s, guard_at(self, s)?);
-            reach *= 4.0;
-        }
+        let reach = (2.0 * nearest.1 / rate).abs();
+        let reach = reach.max(4.0 * f64::EPSILON * nearest.0);
+        let [before, after] = bracket(nearest, reach, |s| guard_at(self, s))?;
         if before.1 < 0.0 || after.1 > 0.0 || known > 0 && before.0 == 0.0 {
             return None;
         }
-        // Else secants that keep the root between them (the Illinois algorithm, Dowell & Jarratt 1971).
-        let mut weights = [before.1, after.1];
-        let mut moved = 0.0;
-        for _ in 0..MOST_SECANTS {
-            let (width, resolution) = (after.0 - before.0, 2.0 * f64::EPSILON * after.0);
-            if before.1 == 0.0 || after.1 == 0.0 || width <= resolution {
-                break;
-            }
-            let share = weights[0] / (weights[0] - weights[1]);
-            let middle = before.0 + width * share;
-            let s = middle.clamp(before.0 + 0.5 * resolution, after.0 - 0.5 * resolution);
-            let value = guard_at(self, s)?;
-            let again = if value * moved > 0.0 { 0.5 } else { 1.0 };
-            moved = value;
-            if value > 0.0 {
-                (before, weights) = ((s, value), [value, again * weights[1]]);
-            } else {
-                (after, weights) = ((s, value), [again * weights[0], value]);
-            }
-        }
-        Some(if before.1.abs() < after.1.abs() {
-            before.0
-        } else {
-            after.0
-        })
+        zero_between([before, after], |s| guard_at(self, s))
     }
 
     /// Whether what ends the step, whose values `dynamics` holds there, is no zero of the guard but of its interpolation only.

@@ -194,7 +194,8 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
         self
     }
 
-    /// Most events of a run, marks among them; with more it ends with [`Error::Limit`]. Switches that change nothing are counted with them.
+    /// Most events of a run, marks among them, but for the one that ends it; with more it ends with [`Error::Limit`], and the log has what happened at
+    /// that instant. Switches that change nothing are counted with them.
     #[must_use]
     pub fn max_events(mut self, limit: usize) -> Self {
         self.settings.max_events = limit;

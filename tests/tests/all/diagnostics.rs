@@ -189,6 +189,88 @@ fn mistakes_expand_to_rust() {
     }
 }
 
+/// A declaration with an item of every kind that becomes a constant.
+const NAMES: &str = "#[lagrange(
+    coordinates(r: \"m\", theta: \"rad\"),
+    coordinates(z[3]),
+    attitude(body: turned),
+    define(x = r * sin(theta), y = r * cos(theta)),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2) + sum(i in 0..3: mass/2 * der(z[i])^2),
+    kinetic(spin: mass * radius^2/5 * dot(body.body_rate, body.body_rate)),
+    potential(weight: mass * gravity * y),
+    constraint(tied[i in 0..2]: z[i] == 2 * z[i + 1]),
+    contact(ball: r >= radius, restitution = 0),
+    friction(grip on ball: slip = der(theta) * r, static = 0.1),
+    force(pull: z[0] = 1),
+    dissipation(oil: der(r)^2),
+    observe(height = y, x),
+    start(nudged: r = radius, theta = 0.1),
+    stop(ground: y <= -radius),
+    mark(level: y),
+)]
+struct Ball { mass: f64, gravity: f64, radius: f64 }";
+
+/// The constants of a struct with their types, arrays as those of their elements.
+fn handles(source: &str) -> BTreeSet<(String, String)> {
+    let expansion = lagrange_engine::expand(source.parse().expect("tokens"));
+    let rust = syn::parse2::<syn::File>(expansion).expect("Rust");
+    let own = rust.items.iter().filter_map(|item| match item {
+        syn::Item::Impl(own) if own.trait_.is_none() => Some(&own.items),
+        _ => None,
+    });
+    let constants = own.flatten().filter_map(|item| {
+        let syn::ImplItem::Const(constant) = item else {
+            return None;
+        };
+        let kind = match &constant.ty {
+            syn::Type::Array(array) => &*array.elem,
+            kind => kind,
+        };
+        let syn::Type::Path(kind) = kind else {
+            return None;
+        };
+        let kind = kind.path.segments.last()?.ident.to_string();
+        kind.ends_with("Id")
+            .then(|| (constant.ident.to_string(), kind))
+    });
+    constants.collect()
+}
+
+/// One mistake, in the notation, the names or the units, leaves all constants of the struct, so that their uses are no further errors.
+#[test]
+fn names_are_known_beside_a_mistake() {
+    let declared = handles(NAMES);
+    assert_eq!(declared.len(), 18, "{declared:?}");
+    for (right, wrong) in [
+        ("r >= radius", "r = radius"),
+        ("r >= radius", "r > radius"),
+        ("y <= -radius", "y == -radius"),
+        ("sin(theta)", "sine(theta)"),
+        ("gravity * y", "gravty * y"),
+        ("der(x)^2", "der(x)**2"),
+        ("der(x)^2", "x.der()^2"),
+        ("gravity * y),", "gravity * y)"),
+        ("contact(ball", "contakt(ball"),
+        ("frict", "frik"),
+        ("\"rad\"", "\"radian\""),
+        ("mass/2 * (", "mass/2 ("),
+        ("theta: \"rad\"),", "theta: \"rad\");"),
+        ("r: \"m\", theta", "r: \"m\" theta"),
+        ("mass: f64", "mass: f32"),
+        ("struct Ball {", "struct Ball<'a> {"),
+        ("gravity * y", "gravity"),
+        ("der(r)^2", "r^2"),
+        ("z[0] = 1", "z[0] == 1"),
+        ("height = y", "height: y"),
+    ] {
+        let source = NAMES.replacen(right, wrong, 1);
+        assert_ne!(source, NAMES, "{wrong}");
+        assert!(mistakes(&source).iter().count() > 0, "{wrong} is accepted");
+        let missing: Vec<_> = declared.difference(&handles(&source)).cloned().collect();
+        assert!(missing.is_empty(), "{wrong}: {missing:?}");
+    }
+}
+
 /// The documentation of the macro shows wrong declarations with what is said about them: these cases.
 #[test]
 fn the_page_of_mistakes_shows_what_is_said() {

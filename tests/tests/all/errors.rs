@@ -496,7 +496,7 @@ fn a_run_whose_end_is_out_of_reach_is_told_so() {
     potential = -weak * cos(theta) - rate^2 * theta^2 / 2,
     start(beside: theta = 1),
 )]
-struct Driven {
+struct Needle {
     weak: f64,
     rate: f64,
 }
@@ -504,7 +504,7 @@ struct Driven {
 /// Its steps are a part of a turn, and a turn takes e^(−rate t): in ln 2/rate their number doubles. What comes to rest has ever longer steps.
 #[test]
 fn a_motion_that_becomes_faster_and_faster_is_out_of_reach_early() {
-    let scene = Driven {
+    let scene = Needle {
         weak: 2.0,
         rate: 2.5,
     };
@@ -514,7 +514,7 @@ fn a_motion_that_becomes_faster_and_faster_is_out_of_reach_early() {
                 .method(method.parse().expect("a method"))
                 .record(false)
                 .max_steps(1_000_000)
-                .run(scene.at(Driven::BESIDE), 0.0..until)
+                .run(scene.at(Needle::BESIDE), 0.0..until)
         };
         let failure = run(500.0).expect_err("no run takes as many steps");
         let Error::OutOfReach { time, steps, .. } = failure.error else {
