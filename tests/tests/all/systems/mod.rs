@@ -131,6 +131,7 @@ mod turned_room;
 mod turntable;
 mod two_walls;
 mod unconnected;
+mod unloaded;
 mod untouched;
 mod vanishing_loads;
 mod wire;
