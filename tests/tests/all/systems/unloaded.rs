@@ -7,13 +7,13 @@ use lagrange_tests::{Random, agree, certified, event, run_by, words};
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
     emit = data,
-    coordinates(tilt, along, off),
-    define(x = along*cos(tilt) - off*sin(tilt), y = along*sin(tilt) + off*cos(tilt)),
+    coordinates(tilt, s, n),
+    define(x = s*cos(tilt) - n*sin(tilt), y = s*sin(tilt) + n*cos(tilt)),
     kinetic = inertia/2*der(tilt)^2 + mass/2*(der(x)^2 + der(y)^2),
     potential = 9.81*mass*y,
-    contact(board: off >= 0, where along <= length),
+    contact(board: n >= 0, where s <= length),
     contact(rest: rise + length*sin(tilt) >= 0),
-    start(slides: along = length/2, tilt = -asin(rise/length), der(along) = speed),
+    start(slides: s = length/2, tilt = -asin(rise/length), der(s) = speed),
 )]
 struct Plank {
     mass: f64,
@@ -60,8 +60,8 @@ fn a_plank_that_a_mass_has_left_stays_at_its_stop() {
                 length * cosine + leaving * cosine * fall,
                 -length * sine - leaving * sine * fall - 9.81 * fall * fall / 2.0,
             ];
-            agree(&what, end.q(Plank::ALONG), x * cosine - y * sine, 1e-6);
-            agree(&what, end.q(Plank::OFF), x * sine + y * cosine, 1e-6);
+            agree(&what, end.q(Plank::S), x * cosine - y * sine, 1e-6);
+            agree(&what, end.q(Plank::N), x * sine + y * cosine, 1e-6);
             certified(&what, &run);
         }
     }
