@@ -16,6 +16,9 @@ const FAR: f64 = 1e3;
 /// No flight between two events takes as many steps. Steps that events end become ever shorter where impacts accumulate, and that comes to an end.
 const FLIGHT: usize = 32;
 
+/// Of fewer steps nothing tells that they become ever shorter: close to a position in which constraints lose rank they do so for a while.
+const FEWEST_GROWING: f64 = 4096.0;
+
 impl<T: Scalar> Run<T> {
     /// Looks, each time the number of steps has doubled, whether the end of the run is within reach at the rate at which it has gone so far.
     ///
@@ -58,7 +61,7 @@ impl<T: Scalar> Run<T> {
     /// last two: less than 2 where the motion becomes faster and faster. Of steps that events end nothing is known.
     fn growing(&self, made: f64, time: f64) -> f64 {
         let trajectory = &self.recorder.trajectory;
-        if FLIGHT * trajectory.events.len() > trajectory.work.steps {
+        if made < FEWEST_GROWING || FLIGHT * trajectory.events.len() > trajectory.work.steps {
             return 0.0;
         }
         let [a, b, c] = self.looks;
