@@ -520,7 +520,8 @@ fn a_motion_that_becomes_faster_and_faster_is_out_of_reach_early() {
         let Error::OutOfReach { time, steps, .. } = failure.error else {
             panic!("{method}: {}", failure.error);
         };
-        assert!(steps > 1e20, "{method}: {steps}");
+        // A thousand times as many as it may take.
+        assert!(steps > 1e9, "{method}: {steps}");
         let made = failure.trajectory.work().steps as f64;
         assert!(made < 10_000.0, "{method}: {made}");
         // A little later it has all the steps that it needs.
