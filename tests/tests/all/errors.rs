@@ -524,10 +524,10 @@ fn a_motion_that_becomes_faster_and_faster_is_out_of_reach_early() {
         assert!(steps > 1e9, "{method}: {steps}");
         let made = failure.trajectory.work().steps as f64;
         assert!(made < 10_000.0, "{method}: {made}");
-        // A little later it has all the steps that it needs.
+        // It could go on for a while: e^(rate/2) = 3.5 times as many steps at most take it half a second farther, and half as many again at least.
         let run = run(time + 0.5).unwrap_or_else(|failure| panic!("{method}: {failure}"));
         let more = run.work().steps as f64 / made;
-        assert!((2.0..6.0).contains(&more), "{method}: {more}");
+        assert!((1.5..3.5).contains(&more), "{method}: {more}");
     }
 }
 
