@@ -7,15 +7,13 @@
 use super::equations::{Equations, change};
 use super::quadrature::gauss;
 use super::sizes::rounding_of;
-use super::watch::Step;
+use super::step::Step;
 use super::{Findings, Subject};
-use crate::declaration::{Evaluator, Gradient, Inputs, Operations, Seed};
-use crate::integrate::polynomial_derivative;
+use crate::arithmetic::Pack;
+use crate::declaration::{AtState, Gradient, Operations, Seed};
+use crate::integrate::{AtPlaces, PLACES};
 use crate::system::Description;
 use core::cmp::Ordering;
-
-/// Places of the quadrature between two instants.
-const POINTS: usize = 8;
 
 /// Two instants that are nearer than this share of a step are not taken apart any further.
 const NARROW: f64 = 1e-13;
@@ -33,18 +31,18 @@ const PARTS: usize = 512;
 #[derive(Debug)]
 pub(super) struct Energies {
     d: &'static Description,
-    evaluator: Evaluator,
-    /// The terms of T and of V that take part.
-    terms: [Vec<usize>; 2],
+    /// At an instant.
+    instant: AtState,
+    /// At the places of a quadrature.
+    places: AtState<AtPlaces>,
+    /// The terms of T and of V, of each if it may jump.
+    terms: Vec<Vec<usize>>,
     /// What their choices depend on.
     guards: Vec<usize>,
-    nodes: Vec<(f64, f64)>,
+    /// Places of the quadrature between −1 and 1, and their weights.
+    nodes: [AtPlaces; 2],
     /// Per coordinate: the size below which its errors are absolute; empty: 1 for all.
     least: Vec<f64>,
-    q: Vec<f64>,
-    v: Vec<f64>,
-    acceleration: Vec<f64>,
-    zeros: Vec<f64>,
     gradients: Vec<Gradient>,
     /// Parts that the step may still be cut into.
     parts: usize,
@@ -75,23 +73,28 @@ impl Energies {
             let terms = terms.filter(|&(_, sign)| sign == which);
             terms.map(|(value, _)| value).collect()
         });
-        let all = terms.concat();
-        if !Operations::of(declaration, all.iter().copied()).may_jump() {
+        let may_jump = |terms: &Vec<usize>| {
+            let operations = Operations::of(declaration, terms.iter().copied());
+            operations.may_jump()
+        };
+        let terms: Vec<Vec<usize>> = terms.into_iter().filter(may_jump).collect();
+        if terms.is_empty() {
             return None;
         }
-        let evaluator = Evaluator::new(declaration, &equations.parameters, all);
         let n = d.coordinates.len();
+        let instant = AtState::new(declaration, &equations.parameters, terms.concat(), n);
+        let nodes = gauss(PLACES);
+        let of_nodes = |part: fn(&(f64, f64)) -> f64| {
+            Pack(core::array::from_fn(|k| nodes.get(k).map_or(0.0, part)))
+        };
         Some(Self {
             d,
-            guards: evaluator.guards(),
-            evaluator,
+            guards: instant.evaluator.guards(),
+            instant,
+            places: AtState::new(declaration, &equations.parameters, terms.concat(), n),
             terms,
-            nodes: gauss(POINTS),
+            nodes: [of_nodes(|node| node.0), of_nodes(|node| node.1)],
             least: equations.sizes.clone(),
-            q: vec![0.0; n],
-            v: vec![0.0; n],
-            acceleration: vec![0.0; n],
-            zeros: equations.zeros.clone(),
             gradients: vec![Gradient::default(); n],
             parts: 0,
         })
@@ -99,25 +102,10 @@ impl Energies {
 
     /// Books how far T and V jump within a step.
     pub fn follow(&mut self, step: &Step, findings: &mut Findings) {
-        self.evaluator.take_for([]);
-        self.take(step, 0.5 * step.end);
-        // Within a step choices stay as they are, but for those that lie at their border all the time, as where two bodies fall side by side: the power of a
-        // depth of −1e-17 is no number.
-        let mut changes = vec![[0.0; 3]; self.q.len()];
-        let mut sides = Vec::new();
-        for &guard in &self.guards {
-            let value = self.evaluator.value(guard);
-            let terms = self.evaluator.gradient_size(guard, 0, &mut changes);
-            let side = match value < 0.0 {
-                true => Ordering::Less,
-                false => Ordering::Equal,
-            };
-            sides.extend((value.abs() > AT_BORDER * rounding_of(terms)).then_some((guard, side)));
-        }
-        self.evaluator.take_for(sides);
+        self.take_sides(step);
         for energy in 0..self.terms.len() {
             let [(first, begin), (last, end)] = [0.0, step.end].map(|s| {
-                self.take(step, s);
+                step.at(s, &mut self.instant);
                 (self.value(energy), self.sizes(energy))
             });
             let size = begin.value.max(end.value) + begin.reach.max(end.reach);
@@ -136,6 +124,31 @@ impl Energies {
         }
     }
 
+    /// Keeps choices on the sides that they have in the middle of a step.
+    fn take_sides(&mut self, step: &Step) {
+        if self.guards.is_empty() {
+            return;
+        }
+        self.instant.evaluator.take_for([]);
+        step.at(0.5 * step.end, &mut self.instant);
+        // Within a step choices stay as they are, but for those that lie at their border all the time, as where two bodies fall side by side: the power of a
+        // depth of −1e-17 is no number.
+        let mut changes = vec![[0.0; 3]; self.gradients.len()];
+        let mut sides = Vec::new();
+        let AtState { evaluator, .. } = &mut self.instant;
+        for &guard in &self.guards {
+            let value = evaluator.value(guard);
+            let terms = evaluator.gradient_size(guard, 0, &mut changes);
+            let side = match value < 0.0 {
+                true => Ordering::Less,
+                false => Ordering::Equal,
+            };
+            sides.extend((value.abs() > AT_BORDER * rounding_of(terms)).then_some((guard, side)));
+        }
+        self.places.evaluator.take_for(sides.iter().copied());
+        self.instant.evaluator.take_for(sides);
+    }
+
     /// How far an energy jumps between two parts of a step, at which it has these values, and where; nothing where that is negligible.
     fn jump(
         &mut self,
@@ -145,12 +158,15 @@ impl Energies {
         [first, last]: [Value; 2],
         negligible: f64,
     ) -> (f64, f64) {
-        let mut gained = 0.0;
-        for k in 0..self.nodes.len() {
-            let (x, weight) = self.nodes[k];
-            self.take(step, a + 0.5 * (b - a) * (1.0 + x));
-            gained += 0.5 * (b - a) * step.length * weight * self.value(energy).rate;
-        }
+        let [places, weights] = self.nodes;
+        let places = places.0.map(|x| a + 0.5 * (b - a) * (1.0 + x));
+        step.at_places(Pack(places), &mut self.places);
+        let terms = self.terms[energy].iter();
+        let rates = terms.map(|&term| self.places.evaluator.rate(term));
+        let rates = rates.fold(AtPlaces::default(), |sum, rate| sum + rate);
+        let gained = rates.0.into_iter().zip(weights.0);
+        let gained: f64 = gained.map(|(rate, weight)| weight * rate).sum();
+        let gained = 0.5 * (b - a) * step.length * gained;
         // The rate of a root has no value where that vanishes.
         let gained = if gained.is_finite() { gained } else { 0.0 };
         let error = (last.value - first.value - gained).abs();
@@ -162,7 +178,7 @@ impl Energies {
             return (error, b);
         }
         self.parts -= 1;
-        self.take(step, middle);
+        step.at(middle, &mut self.instant);
         let between = self.value(energy);
         if !between.value.is_finite() {
             return (error, b);
@@ -179,22 +195,6 @@ impl Energies {
         }
     }
 
-    /// Takes the state at part `s` of a step.
-    fn take(&mut self, step: &Step, s: f64) {
-        step.state(s, &mut self.q, &mut self.v);
-        for (acceleration, c) in self.acceleration.iter_mut().zip(step.polynomials(1)) {
-            *acceleration = polynomial_derivative(c, s) / step.length;
-        }
-        self.evaluator.evaluate(Inputs {
-            time: step.time + step.length * s,
-            q: &self.q,
-            v: &self.v,
-            acceleration: &self.acceleration,
-            forces: &self.zeros,
-            loads: &self.zeros,
-        });
-    }
-
     /// T or V in the state taken.
     fn value(&self, energy: usize) -> Value {
         let terms = self.terms[energy].iter();
@@ -203,8 +203,8 @@ impl Energies {
             rate: 0.0,
         };
         terms.fold(start, |sum, &term| Value {
-            value: sum.value + self.evaluator.value(term),
-            rate: sum.rate + self.evaluator.rate(term),
+            value: sum.value + self.instant.evaluator.value(term),
+            rate: sum.rate + self.instant.evaluator.rate(term),
         })
     }
 
@@ -217,15 +217,18 @@ impl Energies {
             gradient: 1.0,
         };
         let seeds: Vec<Seed> = self.terms[energy].iter().map(seed).collect();
-        self.evaluator.sweep(&seeds, &mut self.gradients);
+        let AtState {
+            evaluator, q, v, ..
+        } = &mut self.instant;
+        evaluator.sweep(&seeds, &mut self.gradients);
         let changes = self.gradients.iter();
         let changes = changes.map(|g| [g.position.sum.abs(), g.velocity.sum.abs(), 0.0]);
         let mut changes: Vec<[f64; 3]> = changes.collect();
-        let reach = change(&changes, &self.least, [&self.q, &self.v]);
+        let reach = change(&changes, &self.least, [q, v]);
         let (mut value, mut rounding) = (0.0, 0.0);
         for &term in &self.terms[energy] {
-            value += self.evaluator.value(term).abs();
-            rounding += rounding_of(self.evaluator.gradient_size(term, 0, &mut changes));
+            value += evaluator.value(term).abs();
+            rounding += rounding_of(evaluator.gradient_size(term, 0, &mut changes));
         }
         Sizes {
             value,

@@ -20,6 +20,7 @@ mod jumps;
 mod motion;
 mod quadrature;
 mod sizes;
+mod step;
 mod step_error;
 #[cfg(test)]
 mod tests;

@@ -6,11 +6,11 @@
 
 use super::equations::{Situation, change};
 use super::sizes::rounding_of;
+use super::step::Step;
 use super::{Findings, Subject, beyond};
 use crate::arithmetic::Scalar;
 use crate::declaration::{Declaration, Evaluator, Inputs, Interval, Real};
 use crate::effects::Item;
-use crate::integrate::horner;
 use crate::mode::Mode;
 use crate::system::Description;
 use crate::trajectory::{self, Trajectory};
@@ -62,36 +62,6 @@ struct Guard {
     /// Whether a stop has been false.
     armed: bool,
     last: Option<(f64, f64)>,
-}
-
-/// The polynomials of a step.
-#[derive(Debug, Default)]
-pub(super) struct Step {
-    pub time: f64,
-    pub length: f64,
-    /// The part of it that belongs to the motion.
-    pub end: f64,
-    /// Number of coefficients of each.
-    pub width: usize,
-    /// Coefficients of all positions, then of all velocities.
-    pub coefficients: Vec<f64>,
-}
-
-impl Step {
-    pub fn polynomials(&self, which: usize) -> impl Iterator<Item = &[f64]> {
-        let all = self.coefficients.chunks_exact(self.width);
-        let n = all.len() / 2;
-        all.skip(which * n).take(n)
-    }
-
-    /// Takes positions and velocities at part `s` of it.
-    pub fn state(&self, s: f64, q: &mut [f64], v: &mut [f64]) {
-        for (which, list) in [q, v].into_iter().enumerate() {
-            for (x, c) in list.iter_mut().zip(self.polynomials(which)) {
-                *x = horner(c, s);
-            }
-        }
-    }
 }
 
 /// Everything that a polynomial can be between two parts of a step.

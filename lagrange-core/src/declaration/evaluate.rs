@@ -102,6 +102,8 @@ pub struct Evaluator<N = f64> {
     declaration: &'static Declaration,
     /// What changes with the state, of what is wanted.
     operations: Vec<Operation>,
+    /// What does not.
+    still: Vec<Operation>,
     /// Per value: whether it changes with the state.
     moves: Vec<bool>,
     /// Per value: whether it reads forces, which do not follow from the state alone.
@@ -128,6 +130,7 @@ impl<N: Real> Evaluator<N> {
         let mut evaluator = Self {
             declaration,
             operations: Vec::with_capacity(n),
+            still: Vec::new(),
             moves: vec![false; n],
             of_forces: vec![false; n],
             taken: vec![None; n],
@@ -135,14 +138,6 @@ impl<N: Real> Evaluator<N> {
             slopes: vec![[Series::default(); 2]; n],
             weights: Vec::new(),
             sizes: Vec::new(),
-        };
-        let still = Inputs {
-            time: N::default(),
-            q: &[],
-            v: &[],
-            acceleration: &[],
-            forces: &[],
-            loads: &[],
         };
         for operation in needed.iter() {
             let at = operation.value;
@@ -154,15 +149,34 @@ impl<N: Real> Evaluator<N> {
                 op::FORCE | op::LOAD => true,
                 _ => operation.operands().any(|x| evaluator.of_forces[x]),
             };
-            if operation.code == op::PARAMETER {
-                evaluator.values[at] = Series::constant(N::number(parameters[operation.x]));
-            } else if evaluator.moves[at] {
-                evaluator.operations.push(operation);
-            } else {
-                evaluator.apply(operation, still);
+            match evaluator.moves[at] {
+                true => evaluator.operations.push(operation),
+                false => evaluator.still.push(operation),
             }
         }
+        evaluator.set_parameters(parameters);
         evaluator
+    }
+
+    /// Takes other parameters.
+    pub fn set_parameters(&mut self, parameters: &[f64]) {
+        let no_state = Inputs {
+            time: N::default(),
+            q: &[],
+            v: &[],
+            acceleration: &[],
+            forces: &[],
+            loads: &[],
+        };
+        for k in 0..self.still.len() {
+            let operation = self.still[k];
+            if operation.code == op::PARAMETER {
+                let parameter = N::number(parameters[operation.x]);
+                self.values[operation.value] = Series::constant(parameter);
+            } else {
+                self.apply(operation, no_state);
+            }
+        }
     }
 
     /// An evaluator of everything, pictures too.
@@ -200,14 +214,6 @@ impl<N: Real> Evaluator<N> {
         values.for_each(|(value, ordering)| self.taken[value] = Some(ordering));
     }
 
-    /// Whether a choice with this guard is the first one; nothing if it may be either.
-    fn is_first(&self, guard: usize) -> Option<bool> {
-        match self.taken[guard] {
-            Some(ordering) => Some(ordering.is_ge()),
-            None => self.values[guard].0[0].is_positive(),
-        }
-    }
-
     /// Takes another state.
     pub fn evaluate(&mut self, x: Inputs<'_, N>) {
         for k in 0..self.operations.len() {
@@ -228,15 +234,13 @@ impl<N: Real> Evaluator<N> {
             op::ADD => n(i) + n(j),
             op::MULTIPLY => n(i) * n(j),
             op::DERIVATIVE => n(i).derivative(),
-            op::SELECT => match self.is_first(operation.guard) {
-                Some(true) => n(i),
-                Some(false) => n(j),
-                // What is chosen in between jumps, or its rate does.
-                None => {
-                    let value = n(i).0[0].hull(n(j).0[0]);
-                    Series([value, N::ANYTHING, N::ANYTHING])
-                }
-            },
+            op::SELECT => {
+                let guard = match self.taken[operation.guard] {
+                    Some(ordering) => N::number(f64::from(ordering as i8)),
+                    None => n(operation.guard).0[0],
+                };
+                guard.choose(n(i), n(j))
+            }
             op::ATAN2 => {
                 let (value, slopes) = n(i).atan2(n(j));
                 self.slopes[at] = slopes;
@@ -302,7 +306,11 @@ impl Evaluator {
                 by(j, &self.values[i]);
             }
             op::SELECT => {
-                let first = self.is_first(operation.guard) == Some(true);
+                let guard = operation.guard;
+                let first = match self.taken[guard] {
+                    Some(ordering) => ordering.is_ge(),
+                    None => self.value(guard) >= 0.0,
+                };
                 by(if first { i } else { j }, &ONE);
             }
             op::TIME | op::FORCE | op::LOAD => {}

@@ -2,6 +2,7 @@
 //!
 //! Ends are rounded to the nearest number, not outwards: what is concluded from them is held against a tolerance.
 
+use super::Series;
 use super::real::Real;
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use core::ops::{Add, Mul};
@@ -45,6 +46,17 @@ impl Interval {
     #[must_use]
     pub fn max(self, other: Self) -> Self {
         Self::new(self.low.max(other.low), self.high.max(other.high))
+    }
+
+    /// Both, and what lies between them.
+    #[must_use]
+    pub fn hull(self, other: Self) -> Self {
+        Self::new(self.low.min(other.low), self.high.max(other.high))
+    }
+
+    /// Whether it is 0 and nothing else.
+    fn is_zero(self) -> bool {
+        self.low == 0.0 && self.high == 0.0
     }
 
     /// Whether x is in it.
@@ -114,20 +126,20 @@ impl Real for Interval {
         Self::new(x, x)
     }
 
-    fn is_positive(self) -> Option<bool> {
+    fn choose(self, first: Series<Self>, second: Series<Self>) -> Series<Self> {
         match self {
-            _ if self.low >= 0.0 => Some(true),
-            _ if self.high < 0.0 => Some(false),
-            _ => None,
+            _ if self.low >= 0.0 => first,
+            _ if self.high < 0.0 => second,
+            // What is chosen in between jumps, or its rate does.
+            _ => {
+                let value = first.0[0].hull(second.0[0]);
+                Series([value, Self::ANYTHING, Self::ANYTHING])
+            }
         }
     }
 
-    fn is_zero(self) -> bool {
-        self.low == 0.0 && self.high == 0.0
-    }
-
-    fn hull(self, other: Self) -> Self {
-        Self::new(self.low.min(other.low), self.high.max(other.high))
+    fn times_change(self, change: Self) -> Self {
+        self * change
     }
 
     fn raised(self, p: f64) -> Self {

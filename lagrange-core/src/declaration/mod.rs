@@ -6,6 +6,7 @@
 //! An operation is three little-endian words of four bytes, (operation | guard·256, x, y). Every operation defines the next
 //! value, and operands are values before it.
 
+mod at_state;
 mod draw;
 mod evaluate;
 mod interval;
@@ -15,6 +16,7 @@ mod series;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use at_state::AtState;
 pub use draw::{Draw, Form, Turn};
 pub use evaluate::{Evaluator, Gradient, Inputs, Seed, Sum};
 pub use interval::Interval;

@@ -1,8 +1,10 @@
-//! What a declaration can be evaluated with: a number, or an interval of numbers.
+//! What a declaration can be evaluated with: a number, several side by side, or an interval of numbers.
 
+use super::Series;
+use crate::arithmetic::Pack;
 use core::ops::{Add, Mul};
 
-/// A number, or everything between two numbers.
+/// A number, several numbers side by side, or everything between two numbers.
 pub trait Real: Copy + Default + Add<Output = Self> + Mul<Output = Self> {
     /// Nothing is known of it.
     const ANYTHING: Self;
@@ -10,14 +12,11 @@ pub trait Real: Copy + Default + Add<Output = Self> + Mul<Output = Self> {
     /// This number.
     fn number(x: f64) -> Self;
 
-    /// Whether it is ≥ 0; `None` where a part of it is.
-    fn is_positive(self) -> Option<bool>;
+    /// `first` where it is ≥ 0, and `second` elsewhere.
+    fn choose(self, first: Series<Self>, second: Series<Self>) -> Series<Self>;
 
-    /// Whether it is 0 and nothing else.
-    fn is_zero(self) -> bool;
-
-    /// Both, and what lies between them.
-    fn hull(self, other: Self) -> Self;
+    /// What a change makes as a factor: 0 where nothing changes, also of what is infinite.
+    fn times_change(self, change: Self) -> Self;
 
     /// xᵖ
     fn raised(self, p: f64) -> Self;
@@ -63,23 +62,21 @@ impl Real for f64 {
         x
     }
 
-    fn is_positive(self) -> Option<bool> {
-        Some(self >= 0.0)
+    fn choose(self, first: Series, second: Series) -> Series {
+        if self >= 0.0 { first } else { second }
     }
 
-    fn is_zero(self) -> bool {
-        self == 0.0
-    }
-
-    fn hull(self, _: Self) -> Self {
-        self
+    fn times_change(self, change: Self) -> Self {
+        if change == 0.0 { change } else { self * change }
     }
 
     fn raised(self, p: f64) -> Self {
-        if p == p.trunc() && p.abs() < 1e9 {
-            self.powi(p as i32)
-        } else {
-            self.powf(p)
+        match p {
+            0.0 => 1.0,
+            1.0 => self,
+            2.0 => self * self,
+            _ if p == p.trunc() && p.abs() < 1e9 => self.powi(p as i32),
+            _ => self.powf(p),
         }
     }
 
@@ -126,4 +123,69 @@ impl Real for f64 {
     fn ln(self) -> Self {
         f64::ln(self)
     }
+}
+
+impl<const L: usize> Default for Pack<f64, L> {
+    fn default() -> Self {
+        Self([0.0; L])
+    }
+}
+
+/// Functions of each number by itself.
+macro_rules! of_each {
+    ($($function:ident)*) => {$(
+        fn $function(self) -> Self {
+            Self(self.0.map(<f64 as Real>::$function))
+        }
+    )*};
+}
+
+impl<const L: usize> Real for Pack<f64, L> {
+    const ANYTHING: Self = Self([f64::NAN; L]);
+
+    fn number(x: f64) -> Self {
+        Self([x; L])
+    }
+
+    fn choose(self, first: Series<Self>, second: Series<Self>) -> Series<Self> {
+        let mut chosen = first;
+        for (lane, guard) in self.0.into_iter().enumerate() {
+            let of = |x: &Series<Self>| Series(x.0.map(|c| c.0[lane]));
+            let one = guard.choose(of(&first), of(&second));
+            for (to, c) in chosen.0.iter_mut().zip(one.0) {
+                to.0[lane] = c;
+            }
+        }
+        chosen
+    }
+
+    fn times_change(self, change: Self) -> Self {
+        let mut product = self;
+        for (x, change) in product.0.iter_mut().zip(change.0) {
+            *x = x.times_change(change);
+        }
+        product
+    }
+
+    fn raised(self, p: f64) -> Self {
+        match p {
+            2.0 => self * self,
+            _ => Self(self.0.map(|x| x.raised(p))),
+        }
+    }
+
+    fn atan2(self, x: Self) -> Self {
+        let mut angle = self;
+        for (angle, x) in angle.0.iter_mut().zip(x.0) {
+            *angle = angle.atan2(x);
+        }
+        angle
+    }
+
+    fn sin_cos(self) -> (Self, Self) {
+        let pairs = self.0.map(f64::sin_cos);
+        (Self(pairs.map(|(s, _)| s)), Self(pairs.map(|(_, c)| c)))
+    }
+
+    of_each! { tan asin acos atan sinh cosh tanh exp ln }
 }

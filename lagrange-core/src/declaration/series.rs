@@ -27,8 +27,8 @@ impl<N: Real> Series<N> {
     pub fn of(self, [f, f1, f2, f3]: [N; 4]) -> (Self, Self) {
         let [_, x, y] = self.0;
         let square = N::number(0.5) * x * x;
-        // 0·∞ where a power has come down to a number.
-        let times = |a: N, b: N| if b.is_zero() { b } else { a * b };
+        // A power that has come down to a number has infinite derivatives, and no changes.
+        let times = N::times_change;
         let value = [f, times(f1, x), times(f1, y) + times(f2, square)];
         let slope = [f1, times(f2, x), times(f2, y) + times(f3, square)];
         (Self(value), Self(slope))

@@ -3,6 +3,7 @@
 //! The systems are q̇ = v, v̇ = a(t, q, v). Every stepper hands over a [`StepPolynomial`], from which dense output and
 //! guards are read. The Taylor method has its series made elsewhere; [`taylor`] chooses its order and its steps.
 
+mod at_places;
 mod control;
 mod dop853;
 mod dopri5;
@@ -24,6 +25,7 @@ mod verner98;
 use crate::shortest::Shortest;
 use core::fmt;
 
+pub(crate) use at_places::{AtPlaces, PLACES, derivative_at, horner_at};
 pub use control::Tolerance;
 pub(crate) use control::least_size;
 pub(crate) use gauss::Gauss;

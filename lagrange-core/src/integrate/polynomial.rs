@@ -1,8 +1,10 @@
 //! Positions and velocities over one step, as polynomials in s = (t − t₀)/h.
 
-use crate::arithmetic::Scalar;
+use super::at_places::{AtPlaces, derivative_at, horner_at};
 use crate::arithmetic::products::Row;
 use crate::arithmetic::quad::{Quad, values};
+use crate::arithmetic::{Pack, Scalar};
+use crate::declaration::AtState;
 
 /// The solution over one step: q(t₀ + h s) = Σₖ qₖ sᵏ, the same for v; coefficients carry hᵏ.
 #[derive(Clone, Debug, PartialEq)]
@@ -124,6 +126,33 @@ impl<T: Scalar> StepPolynomial<T> {
     /// Acceleration of coordinate `i` at `s`: the derivative of the velocity's polynomial by time.
     pub fn acceleration(&self, i: usize, s: T) -> T {
         derivative(self.velocity_row(i), s) / self.h
+    }
+
+    /// Evaluates values where the step begins.
+    pub(crate) fn at_start(&self, values: &mut AtState) {
+        for i in 0..self.coordinates() {
+            let velocity = self.velocity_row(i);
+            values.q[i] = self.position_row(i)[0].value();
+            values.v[i] = velocity[0].value();
+            values.acceleration[i] = (velocity[1] / self.h).value();
+        }
+        values.evaluate(self.t.value());
+    }
+
+    /// Evaluates values, and their rates, at several places.
+    pub(crate) fn at_places(&self, places: AtPlaces, values: &mut AtState<AtPlaces>) {
+        for i in 0..self.coordinates() {
+            values.q[i] = horner_at(self.position_row(i), places);
+            values.v[i] = horner_at(self.velocity_row(i), places);
+        }
+        if values.evaluator.needs_accelerations() {
+            for i in 0..self.coordinates() {
+                let slope = derivative_at(self.velocity_row(i), places);
+                values.acceleration[i] = Pack(slope.0.map(|slope| slope / self.h.value()));
+            }
+        }
+        let times = places.0.map(|s| self.time(T::from_f64(s)).value());
+        values.evaluate(Pack(times));
     }
 
     /// Positions and velocities of all coordinates at `s`.

@@ -67,6 +67,11 @@ impl Lagrangian {
         })
     }
 
+    /// Takes the parameters of another system of the same kind.
+    pub(super) fn set_parameters(&mut self, parameters: &[f64]) {
+        self.evaluator.set_parameters(parameters);
+    }
+
     /// The conditions that vanish at a state, and whether any of them changes with the motion.
     fn changes(&mut self, at: Inputs<'_>) -> (Vec<Change>, bool) {
         self.evaluator.take_for([]);

@@ -16,9 +16,9 @@
 //! the step ends between the zeros. So does asin(sin x), by the root √(1 − sin²x) that its slope is divided by.
 
 use super::piece::{Ends, extremes, largest_size, least_size, of_root, passes_cut, passes_zero};
-use crate::arithmetic::Scalar;
-use crate::declaration::{Evaluator, Inputs, Operations};
-use crate::integrate::StepPolynomial;
+use crate::arithmetic::{Pack, Scalar};
+use crate::declaration::{AtState, Evaluator, Operations};
+use crate::integrate::{AtPlaces, PLACES, StepPolynomial};
 use crate::system::Erased;
 
 /// What is smaller than exp(−100), 4e-44, does not matter, whatever it is a factor of.
@@ -43,19 +43,16 @@ const FLAT: f64 = 2.0;
 /// The argument of `asin` or `acos` that changes by more than this in a piece may come to ±1 in it, and back.
 const SWING: f64 = 1.0;
 
-/// A step is looked at in so many pieces.
-const PIECES: usize = 8;
-
 /// The arguments of exponentials and powers, the angles, the roots and the arcs in what acts.
 #[derive(Debug)]
 pub(super) struct Hidden {
-    evaluator: Evaluator,
+    /// Where a step begins.
+    start: AtState,
+    /// Where its pieces end.
+    pieces: AtState<AtPlaces>,
     arguments: Vec<Argument>,
     angles: Vec<Angle>,
     roots: Vec<Root>,
-    q: Vec<f64>,
-    v: Vec<f64>,
-    acceleration: Vec<f64>,
 }
 
 /// The argument of an exponential function, or the base of a power.
@@ -157,13 +154,12 @@ impl Hidden {
         let mut roots: Vec<(usize, Kind)> = roots.chain(arcs).collect();
         // Of what reads forces as well a state says nothing.
         let all: Vec<usize> = values(&arguments, &angles, &roots);
-        let parameters = system.parameters();
-        let evaluator = Evaluator::<f64>::new(system.declaration(), &parameters, all);
+        let (declaration, parameters) = (system.declaration(), system.parameters());
+        let evaluator = Evaluator::<f64>::new(declaration, &parameters, all);
         arguments.retain(|&(argument, _)| evaluator.follows_state(argument));
         angles.retain(|&(angle, _)| evaluator.follows_state(angle));
         roots.retain(|&(base, _)| evaluator.follows_state(base));
         let all = values(&arguments, &angles, &roots);
-        let evaluator = Evaluator::new(system.declaration(), &parameters, all);
         if arguments.is_empty() && angles.is_empty() && roots.is_empty() {
             return None;
         }
@@ -189,14 +185,18 @@ impl Hidden {
         });
         let n = system.description().coordinates.len();
         Some(Self {
+            start: AtState::new(declaration, &parameters, all.iter().copied(), n),
+            pieces: AtState::new(declaration, &parameters, all, n),
             arguments: arguments.collect(),
             angles: angles.collect(),
             roots: roots.collect(),
-            evaluator,
-            q: vec![0.0; n],
-            v: vec![0.0; n],
-            acceleration: vec![0.0; n],
         })
+    }
+
+    /// Takes the parameters of another system of the same kind.
+    pub(super) fn set_parameters(&mut self, parameters: &[f64]) {
+        self.start.evaluator.set_parameters(parameters);
+        self.pieces.evaluator.set_parameters(parameters);
     }
 
     /// Forgets what belongs to another motion.
@@ -221,23 +221,22 @@ impl Hidden {
         order: usize,
     ) -> f64 {
         let rise = RISE * order as f64;
-        let piece = end / PIECES as f64;
+        let piece = end / PLACES as f64;
         let change = piece * step.h.value();
-        self.look(step, 0.0);
-        let ends = |evaluator: &Evaluator, value: usize| {
-            [evaluator.value(value), change * evaluator.rate(value)]
-        };
+        step.at_start(&mut self.start);
+        let start = &self.start.evaluator;
+        let ends = |value: usize| [start.value(value), change * start.rate(value)];
         let time = end * step.h.value();
         let most = |value: usize| {
-            let [rate, bend] = [1, 2].map(|k| self.evaluator.coefficient(value, k));
+            let [rate, bend] = [1, 2].map(|k| start.coefficient(value, k));
             time * (rate.abs() + 2.0 * time * bend.abs())
         };
         for argument in &mut self.arguments {
-            argument.before = ends(&self.evaluator, argument.value);
+            argument.before = ends(argument.value);
             argument.begin(rise, most(argument.value));
         }
         for root in &mut self.roots {
-            let base = self.evaluator.value(root.base).abs();
+            let base = start.value(root.base).abs();
             root.near = root.kind != Kind::Place || most(root.base) >= FAR * base;
         }
         let borders = self.arguments.iter().any(|a| a.border.is_some());
@@ -246,24 +245,30 @@ impl Hidden {
             return end;
         }
         for angle in &mut self.angles {
-            angle.before = ends(&self.evaluator, angle.value);
+            angle.before = ends(angle.value);
             (angle.jumps, angle.beyond) = (0.0, None);
         }
         for root in &mut self.roots {
-            root.before = root.ends(ends(&self.evaluator, root.base));
+            root.before = root.ends(ends(root.base));
             root.corner = None;
         }
-        for n in 1..=PIECES {
-            self.look(step, n as f64 * piece);
+        let places = core::array::from_fn(|n| (n + 1) as f64 * piece);
+        step.at_places(Pack(places), &mut self.pieces);
+        let pieces = &self.pieces.evaluator;
+        for n in 1..=PLACES {
+            let ends = |value: usize| -> Ends {
+                let [x, rate] = [pieces.value(value), pieces.rate(value)].map(|x| x.0[n - 1]);
+                [x, change * rate]
+            };
             for argument in &mut self.arguments {
-                let after = ends(&self.evaluator, argument.value);
+                let after = ends(argument.value);
                 let before = core::mem::replace(&mut argument.before, after);
                 if argument.passes_border(before, after) {
                     return f64::max((n - 1) as f64, 0.5) * piece;
                 }
             }
             for angle in &mut self.angles {
-                let after = ends(&self.evaluator, angle.value);
+                let after = ends(angle.value);
                 if let Some((s, jumps)) = passes_cut(angle.range, angle.before, after) {
                     angle.jumps += jumps;
                     angle.beyond.get_or_insert(((n - 1) as f64 + s) * piece);
@@ -271,7 +276,7 @@ impl Hidden {
                 angle.before = after;
             }
             for root in self.roots.iter_mut().filter(|root| root.near) {
-                let base = ends(&self.evaluator, root.base);
+                let base = ends(root.base);
                 if root.kind == Kind::Arc && base[1].abs() > SWING {
                     return f64::max((n - 1) as f64, 0.5) * piece;
                 }
@@ -293,23 +298,6 @@ impl Hidden {
         let back = self.angles.iter().filter(|angle| angle.jumps == 0.0);
         let beyond = back.filter_map(|angle| angle.beyond);
         beyond.fold(end, f64::min)
-    }
-
-    fn look<T: Scalar>(&mut self, step: &StepPolynomial<T>, s: f64) {
-        let s = T::from_f64(s);
-        for i in 0..self.q.len() {
-            self.q[i] = step.position(i, s).value();
-            self.v[i] = step.velocity(i, s).value();
-            self.acceleration[i] = step.acceleration(i, s).value();
-        }
-        self.evaluator.evaluate(Inputs {
-            time: step.time(s).value(),
-            q: &self.q,
-            v: &self.v,
-            acceleration: &self.acceleration,
-            forces: &[],
-            loads: &[],
-        });
     }
 }
 

@@ -225,11 +225,14 @@ impl<T: Scalar> Run<T> {
 
     /// Takes another system of the same kind.
     pub(crate) fn set_system(&mut self, system: Erased<T>) {
-        if self.hidden.is_some() {
-            self.hidden = Hidden::new(&system, &acting(&system, &self.settings.effects));
-        }
-        if self.lagrangian.is_some() {
-            self.lagrangian = Lagrangian::new(&system, &self.settings.effects);
+        if self.hidden.is_some() || self.lagrangian.is_some() {
+            let parameters = system.parameters();
+            if let Some(hidden) = &mut self.hidden {
+                hidden.set_parameters(&parameters);
+            }
+            if let Some(lagrangian) = &mut self.lagrangian {
+                lagrangian.set_parameters(&parameters);
+            }
         }
         self.dynamics.set_system(system);
     }

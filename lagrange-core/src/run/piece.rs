@@ -61,14 +61,21 @@ pub(super) fn extremes(
     [last, rises]: Ends,
 ) -> impl Iterator<Item = (f64, f64)> {
     // z = first + falls·s + b s² + c s³, whose slope vanishes at two places at most.
+    let change = last - first;
     let (b, c) = (
-        3.0 * (last - first) - 2.0 * falls - rises,
-        2.0 * (first - last) + falls + rises,
+        3.0 * change - 2.0 * falls - rises,
+        falls + rises - 2.0 * change,
     );
-    let root = (b * b - 3.0 * c * falls).max(0.0).sqrt();
-    let q = -(b + root.copysign(b));
-    let places = [q / (3.0 * c), falls / q].into_iter();
-    let inside = places.filter(|&s| s > 0.0 && s < 1.0);
+    // With slopes of up to three times the change at both ends a cubic goes one way (Fritsch & Carlson 1980).
+    let goes_on = |slope: f64| slope * change > 0.0 && slope.abs() < 3.0 * change.abs();
+    let places = if goes_on(falls) && goes_on(rises) {
+        [f64::NAN; 2]
+    } else {
+        let root = (b * b - 3.0 * c * falls).max(0.0).sqrt();
+        let q = -(b + root.copysign(b));
+        [q / (3.0 * c), falls / q]
+    };
+    let inside = places.into_iter().filter(|&s| s > 0.0 && s < 1.0);
     inside.map(move |s| (s, first + s * (falls + s * (b + s * c))))
 }
 

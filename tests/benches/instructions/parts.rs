@@ -5,7 +5,9 @@
 //! the ratio of the calls' costs.
 
 use lagrange_core::prelude::*;
-use lagrange_problems::scenes::{DoublePendulum, MassOnWheel, RollingSlippingSphere};
+use lagrange_problems::scenes::{
+    CartesianPendulum, DoublePendulum, Kepler, MassOnWheel, RollingSlippingSphere,
+};
 use std::collections::BTreeMap;
 use std::process::Command;
 
@@ -52,7 +54,7 @@ struct Scene {
     run: fn(u64) -> [usize; 2],
 }
 
-const SCENES: [Scene; 3] = [
+const SCENES: [Scene; 5] = [
     Scene {
         name: "rolling-slipping sphere, 2.2 s",
         before: [10_400.0, 13_768.0, 22_059.0, 168_310.0],
@@ -67,6 +69,16 @@ const SCENES: [Scene; 3] = [
         name: "double pendulum, 1 s",
         before: [3_907.0, f64::NAN, 3_508.0, 294_832.0],
         run: |times| run(&DoublePendulum::default(), 1.0, times),
+    },
+    Scene {
+        name: "Kepler, an orbit",
+        before: [f64::NAN; 4],
+        run: |times| run(&Kepler::default(), std::f64::consts::TAU, times),
+    },
+    Scene {
+        name: "Cartesian pendulum, 2 s",
+        before: [f64::NAN; 4],
+        run: |times| run(&CartesianPendulum::default(), 2.0, times),
     },
 ];
 
