@@ -21,6 +21,11 @@ pub trait Real: Copy + Default + Add<Output = Self> + Mul<Output = Self> {
     /// xᵖ
     fn raised(self, p: f64) -> Self;
 
+    /// xᵖ, xᵖ⁻¹, xᵖ⁻² and xᵖ⁻³.
+    fn powers(self, p: f64) -> [Self; 4] {
+        [0.0, 1.0, 2.0, 3.0].map(|k| self.raised(p - k))
+    }
+
     /// The angle of (x, `self`).
     fn atan2(self, x: Self) -> Self;
 
@@ -78,6 +83,17 @@ impl Real for f64 {
             _ if p == p.trunc() && p.abs() < 1e9 => self.powi(p as i32),
             _ => self.powf(p),
         }
+    }
+
+    fn powers(self, p: f64) -> [Self; 4] {
+        // One of them makes the others where none that is finite needs more than the range of numbers on the way.
+        let in_range = (1e-60..1e60).contains(&self) && p.abs() < 4.0;
+        if p == p.trunc() || !in_range {
+            return [0.0, 1.0, 2.0, 3.0].map(|k| self.raised(p - k));
+        }
+        let (power, inverse) = (self.powf(p), self.recip());
+        let (once, twice) = (power * inverse, inverse * inverse);
+        [power, once, power * twice, once * twice]
     }
 
     fn atan2(self, x: Self) -> Self {
@@ -169,9 +185,19 @@ impl<const L: usize> Real for Pack<f64, L> {
 
     fn raised(self, p: f64) -> Self {
         match p {
+            0.0 => Self::number(1.0),
+            1.0 => self,
             2.0 => self * self,
             _ => Self(self.0.map(|x| x.raised(p))),
         }
+    }
+
+    fn powers(self, p: f64) -> [Self; 4] {
+        if p == p.trunc() {
+            return [0.0, 1.0, 2.0, 3.0].map(|k| self.raised(p - k));
+        }
+        let powers = self.0.map(|x| x.powers(p));
+        core::array::from_fn(|k| Self(powers.map(|powers| powers[k])))
     }
 
     fn atan2(self, x: Self) -> Self {

@@ -132,17 +132,16 @@ pub(super) fn function<N: Real>(number: u32, x: N) -> [N; 4] {
 
 /// xᵖ and its first three derivatives.
 pub(super) fn power<N: Real>(x: N, p: f64) -> [N; 4] {
-    let mut factor = 1.0;
+    let (powers, mut factor) = (x.powers(p), 1.0);
     core::array::from_fn(|k| {
-        let k = k as f64;
-        if k > 0.0 {
-            factor *= p - k + 1.0;
+        if k > 0 {
+            factor *= p - k as f64 + 1.0;
         }
         // The fourth derivative of a cube is 0, also at 0.
         if factor == 0.0 {
             N::default()
         } else {
-            N::number(factor) * x.raised(p - k)
+            N::number(factor) * powers[k]
         }
     })
 }
