@@ -27,6 +27,9 @@ const LOWER: usize = 4;
 /// So many breaks of guards in a row are no instants that can be passed: a slip that fades has more than a thousand before it rests.
 const MOST_BREAKS: usize = 100_000;
 
+/// So many in a row of guards that have no series are none either: what overflows does so for longer than the shortest steps go on.
+const MOST_WITHOUT_SERIES: usize = 1000;
+
 /// A step up to this share of the longest since the last switch may pass a break of stops and marks that are far from zero,
 const BRIEF: f64 = 1e-4;
 
@@ -152,8 +155,8 @@ impl<T: Scalar> Run<T> {
             let passes =
                 !(guards <= 1.0) && motion <= 1.0 && self.only_watches_break(looked, moves);
             let guards = if passes { 0.0 } else { guards };
-            if passes && self.stepper.breaks >= MOST_BREAKS {
-                return Err(self.breaks_on());
+            if passes {
+                self.refuse_endless_breaks()?;
             }
             // A step must not end where the constraints lose rank.
             let distance = match known {
@@ -321,10 +324,8 @@ impl<T: Scalar> Run<T> {
     /// Beyond the break a guard is infinite or no number, or a gap or the guard of a branch has jumped below zero; or there is one break
     /// after the other.
     fn pass_break(&mut self) -> Result<Hit, Error> {
+        self.refuse_endless_breaks()?;
         self.stepper.breaks += 1;
-        if self.stepper.breaks > MOST_BREAKS {
-            return Err(self.breaks_on());
-        }
         self.evaluate_end(1.0).map_err(|e| self.error(e))?;
         let (curves, dynamics) = (&mut self.locator.polynomials, &mut self.dynamics);
         if let Some((guard, before, after)) = curves.hold(dynamics, &self.now.mode) {
@@ -359,11 +360,15 @@ impl<T: Scalar> Run<T> {
             && curves.holds_watches(dynamics, &self.now.mode, looked, tolerance)
     }
 
-    /// What is wrong with guards that bound step after step.
-    fn breaks_on(&self) -> Error {
+    /// Refuses guards that bound step after step.
+    fn refuse_endless_breaks(&self) -> Result<(), Error> {
+        if self.stepper.breaks < MOST_WITHOUT_SERIES {
+            return Ok(());
+        }
         match self.locator.polynomials.without_series() {
-            Some(guard) => self.no_value_of("a Taylor coefficient of the guard", guard),
-            None => self.step_too_small(self.resolution(0.0)),
+            Some(guard) => Err(self.no_value_of("a Taylor coefficient of the guard", guard)),
+            None if self.stepper.breaks < MOST_BREAKS => Ok(()),
+            None => Err(self.step_too_small(self.resolution(0.0))),
         }
     }
 
