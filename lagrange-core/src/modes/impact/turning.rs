@@ -69,8 +69,7 @@ impl<T: Scalar> Pattern<T> {
                 size = f64::max(size, scale * self.impulses[row].value().abs());
                 self.impulses[row] += x;
             }
-            self.slide(c, straight);
-            self.move_on(c, phase);
+            self.move_on(c, phase, straight);
             // Quadratic: what is left after a step this small is rounding. Of a small slip rounding leaves the direction open.
             let stalls = change >= 0.5 * last;
             if change <= rounding::<T>(1e-15) * size

@@ -200,16 +200,14 @@ impl<T: Scalar> Pattern<T> {
         for _ in 0..2 {
             self.improve(c, phase);
         }
-        self.slide(c, held);
-        self.move_on(c, phase);
+        self.move_on(c, phase, held);
         let agrees = self.agrees(c, phase);
         if !agrees || !self.factors.is_deficient() {
             return agrees;
         }
         self.undetermined = true;
         self.share(c, phase);
-        self.slide(c, held);
-        self.move_on(c, phase);
+        self.move_on(c, phase, held);
         let agrees = self.agrees(c, phase);
         for &i in &self.unknowns {
             self.noise[i] = self.noise[i].max(self.missed(c, phase, i));
@@ -239,8 +237,7 @@ impl<T: Scalar> Pattern<T> {
 
     /// Adds to the unknowns what the equations miss.
     fn improve(&mut self, c: &Collision<T>, phase: &Phase<T>) {
-        self.slide(c, held);
-        self.move_on(c, phase);
+        self.move_on(c, phase, held);
         let mut right = core::mem::take(&mut self.right);
         right.clear();
         right.extend((0..self.unknowns.len()).map(|at| self.missing(c, phase, at)));
@@ -262,8 +259,13 @@ impl<T: Scalar> Pattern<T> {
         }
     }
 
-    /// Friction impulses of what slides in a `direction`.
-    pub(super) fn slide(&mut self, c: &Collision<T>, direction: fn(&Slide) -> Option<[f64; 2]>) {
+    /// Friction impulses of what slides in a `direction`, rates after all impulses, and what rounding leaves of them.
+    pub(super) fn move_on(
+        &mut self,
+        c: &Collision<T>,
+        phase: &Phase<T>,
+        direction: fn(&Slide) -> Option<[f64; 2]>,
+    ) {
         for (rub, slide) in c.rubs.iter().zip(&self.slides) {
             if let Some(direction) = direction(slide) {
                 let normal = rub.factor * self.impulses[c.bearing_row(rub)];
@@ -272,10 +274,6 @@ impl<T: Scalar> Pattern<T> {
                 }
             }
         }
-    }
-
-    /// Rates after the impulses, and what rounding leaves of them.
-    pub(super) fn move_on(&mut self, c: &Collision<T>, phase: &Phase<T>) {
         self.after.clear();
         self.noise.clear();
         let effort = c.effort(&self.impulses);
