@@ -89,6 +89,14 @@ impl<T: Scalar> State<T> {
     }
 }
 
+impl<T: crate::arithmetic::Scalar> State<T> {
+    /// Without derivatives and names.
+    pub(crate) fn values(&self) -> State {
+        let values = |list: &[T]| list.iter().map(|x| x.value()).collect();
+        State::new(values(&self.q), values(&self.v))
+    }
+}
+
 impl<T: Clone> Clone for State<T> {
     fn clone(&self) -> Self {
         Self {

@@ -451,7 +451,7 @@ impl Equations {
             return self.constraint_acts(i, mode);
         }
         if let Some(c) = d.contacts.iter().position(|c| c.row == row) {
-            return mode.contacts[c];
+            return self.contact_acts(c, mode);
         }
         d.frictions
             .iter()
@@ -463,6 +463,11 @@ impl Equations {
     pub fn constraint_acts(&self, i: usize, mode: &Mode) -> bool {
         let contact = self.d.constraints[i].while_contact;
         self.includes(Item::Constraint(i)) && contact.is_none_or(|c| mode.contacts[c])
+    }
+
+    /// Whether a contact acts in a mode: whether it is closed.
+    pub fn contact_acts(&self, c: usize, mode: &Mode) -> bool {
+        self.includes(Item::Contact(c)) && mode.contacts[c]
     }
 
     /// Whether what presses a friction acts in a mode.

@@ -3,7 +3,7 @@
 use super::Subject;
 use super::equations::{Equations, Situation};
 use super::instant::length;
-use super::motion::{Examination, numbers};
+use super::motion::Examination;
 use crate::arithmetic::Scalar;
 use crate::effects::Item;
 use crate::error::Level;
@@ -51,11 +51,8 @@ impl<T: Scalar> Examination<'_, T> {
 
     /// The numbers of an impact; its balance of momenta is left in the equations, which have taken the state before.
     fn jump(&mut self, event: &Event<T>, others_follow: bool) -> Jump {
-        let (time, before, after) = (
-            event.time.value(),
-            numbers(&event.state),
-            numbers(&event.state_after),
-        );
+        let time = event.time.value();
+        let (before, after) = (event.state.values(), event.state_after.values());
         let impulses: Vec<f64> = event.impulses.iter().map(|x| x.value()).collect();
         let equations = &mut self.equations;
         equations.size = equations.momentum_sizes(time, &after);

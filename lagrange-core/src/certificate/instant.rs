@@ -101,7 +101,7 @@ impl Equations {
             self.largest = loads;
         }
         for (c, contact) in self.declaration.contacts.iter().enumerate() {
-            if self.includes(Item::Contact(c)) && mode.contacts[c] {
+            if self.contact_acts(c, mode) {
                 let (force, name) = (at.forces[self.d.contacts[c].row], self.d.contacts[c].name);
                 let size = self.force_along(contact.gap, Level::Position);
                 let mut beyond = -force - blur - shared * size;
@@ -223,7 +223,7 @@ impl Equations {
             }
         }
         for (c, contact) in self.declaration.contacts.iter().enumerate() {
-            if !(self.includes(Item::Contact(c)) && mode.contacts[c]) {
+            if !self.contact_acts(c, mode) {
                 continue;
             }
             for power in 0..2 {
@@ -250,7 +250,7 @@ impl Equations {
     fn examine_contacts(&mut self, at: Situation<'_>, mode: &Mode, findings: &mut Findings) {
         for (c, contact) in self.declaration.contacts.iter().enumerate() {
             let (force, name) = (at.forces[self.d.contacts[c].row], self.d.contacts[c].name);
-            if !(self.includes(Item::Contact(c)) && mode.contacts[c]) {
+            if !self.contact_acts(c, mode) {
                 findings.book(Subject::Idle, force.abs(), 1.0, at.time, name);
                 continue;
             }

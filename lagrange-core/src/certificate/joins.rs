@@ -1,7 +1,7 @@
 //! How steps join: the motion goes on in the state where the step before ended, or where an impact has left it.
 
 use super::Subject;
-use super::motion::{Examination, numbers};
+use super::motion::Examination;
 use crate::arithmetic::Scalar;
 use crate::integrate::least_size;
 use crate::mode::FrictionMode;
@@ -74,7 +74,7 @@ impl<T: Scalar> Examination<'_, T> {
             match event.kind {
                 EventKind::Mark => {}
                 EventKind::Impact | EventKind::Accumulates { .. } if !repeats => {
-                    let found = numbers(&event.state);
+                    let found = event.state.values();
                     if let EventKind::Accumulates { .. } = event.kind {
                         // The impacts that are not followed change velocities evenly until they have ended, for a time that is known as both its ends
                         // are.
@@ -100,7 +100,7 @@ impl<T: Scalar> Examination<'_, T> {
                         });
                         self.impact(event, follows);
                     }
-                    self.expected = numbers(&event.state_after);
+                    self.expected = event.state_after.values();
                 }
                 _ => {}
             }
@@ -114,7 +114,7 @@ impl<T: Scalar> Examination<'_, T> {
         let jumps = |kind| matches!(kind, EventKind::Impact | EventKind::Accumulates { .. });
         let mut jumps = at_once.filter(|event| jumps(event.kind));
         let expected = self.distance(begin, &self.expected);
-        jumps.all(|event| expected <= self.distance(begin, &numbers(&event.state_after)))
+        jumps.all(|event| expected <= self.distance(begin, &event.state_after.values()))
     }
 
     /// How far two states are from one another, in units of their sizes.

@@ -8,7 +8,7 @@ use super::equations::{Equations, change};
 use super::quadrature::gauss;
 use super::sizes::rounding_of;
 use super::step::Step;
-use super::{Findings, Subject};
+use super::{Findings, Subject, beyond};
 use crate::arithmetic::Pack;
 use crate::declaration::{AtState, Gradient, Operations, Seed};
 use crate::integrate::{AtPlaces, PLACES};
@@ -114,12 +114,7 @@ impl Energies {
             let negligible = findings.tolerance * size + rounding;
             let (jump, s) = self.jump(energy, step, [0.0, step.end], [first, last], negligible);
             let time = step.time + step.length * s;
-            // Not `max`, which would take what is no number for nothing.
-            let jump = if jump <= rounding {
-                0.0
-            } else {
-                jump - rounding
-            };
+            let jump = beyond(jump, rounding);
             findings.book(Subject::Jumps, jump, size, time, self.d.name);
         }
     }

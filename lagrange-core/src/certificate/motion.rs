@@ -175,12 +175,6 @@ fn chosen<T: Scalar>(
     chosen.collect()
 }
 
-/// A state as numbers.
-pub(super) fn numbers<T: Scalar>(state: &State<T>) -> State<f64> {
-    let plain = |list: &[T]| list.iter().map(|x| x.value()).collect();
-    State::new(plain(&state.q), plain(&state.v))
-}
-
 /// Copies a state as numbers.
 fn copy<T: Scalar>(state: &State<T>, to: &mut State<f64>) {
     let lists = [(&state.q, &mut to.q), (&state.v, &mut to.v)];
@@ -205,15 +199,14 @@ impl<'a, T: Scalar> Examination<'a, T> {
     /// Makes everything ready; `rounding` is that of the numbers of the run.
     fn new(record: &'a Trajectory<T>, declaration: &'static Declaration, rounding: f64) -> Self {
         let d = record.description();
-        let parameters = (0..d.parameters.len()).map(|i| record.parameter(i).value());
-        let parameters: Vec<f64> = parameters.collect();
+        let parameters = record.system.parameters();
         let mut dynamics = record.dynamics();
         let mut needs = OutputMask::new(d);
         needs.insert(d.energy.need);
         let loads = d.forces.iter().map(|force| force.report_need);
         loads.for_each(|need| needs.insert(need));
         dynamics.set_report_needs(&needs);
-        let start = numbers(&record.start);
+        let start = record.start.values();
         let finest = FINEST * rounding / f64::EPSILON;
         let equations = Equations::new(
             d,
@@ -308,7 +301,7 @@ impl<'a, T: Scalar> Examination<'a, T> {
                 self.time = t + h * end;
             }
         }
-        let last = numbers(&record.last);
+        let last = record.last.values();
         self.events_until(f64::INFINITY, &last, false, true);
         self.join(record.last_time(), &last);
     }

@@ -1,5 +1,6 @@
 //! How large the terms of the declared equations are at a state: what rounding errors, and errors of the state, are relative to.
 
+use super::beyond;
 use super::equations::{Equations, Situation, change};
 use crate::arithmetic::{GOLDEN, uneven};
 use crate::declaration::{Evaluator, Inputs, Interval};
@@ -222,14 +223,7 @@ impl Equations {
     pub fn residual(&mut self, value: usize, power: usize, at: Situation<'_>) -> (f64, f64) {
         let (reach, rounding) = self.reach_with_rounding(value, power, at);
         let error = self.values.coefficient(value, power).abs();
-        (
-            if error <= rounding {
-                0.0
-            } else {
-                error - rounding
-            },
-            reach,
-        )
+        (beyond(error, rounding), reach)
     }
 
     fn reach_with_rounding(&mut self, value: usize, power: usize, at: Situation<'_>) -> (f64, f64) {

@@ -13,7 +13,7 @@ use crate::declaration::{Declaration, Evaluator, Inputs, Interval, Real};
 use crate::effects::Item;
 use crate::mode::Mode;
 use crate::system::Description;
-use crate::trajectory::{self, Trajectory};
+use crate::trajectory::{self, State, Trajectory};
 
 /// A step is cut into at most so many parts.
 const PARTS: usize = 256;
@@ -36,7 +36,7 @@ pub(super) struct Watches {
     passed: Vec<bool>,
     zeros: Vec<f64>,
     unknown: Vec<Interval>,
-    state: [Vec<f64>; 2],
+    state: State<f64>,
     /// Positions, velocities and accelerations between two instants.
     between: [Vec<Interval>; 3],
     changes: Vec<[f64; 3]>,
@@ -135,7 +135,7 @@ impl Watches {
             passed: vec![false; d.contacts.len()],
             zeros: vec![0.0; most],
             unknown: vec![Interval::ANYTHING; most],
-            state: [vec![0.0; n], vec![0.0; n]],
+            state: State::new(vec![0.0; n], vec![0.0; n]),
             between: [(); 3].map(|()| vec![Interval::default(); n]),
             changes: vec![[0.0; 3]; n],
             parts: 0,
@@ -219,7 +219,7 @@ impl Watches {
             forces: &self.unknown,
             loads: &self.unknown,
         });
-        let [q, v] = &self.state;
+        let State { q, v, .. } = &self.state;
         for guard in &self.guards {
             if guard.of_forces || !guard.acts(self.d, mode) {
                 continue;
@@ -251,19 +251,11 @@ impl Watches {
 
     /// Looks at an instant of a step.
     fn look(&mut self, step: &Step, s: f64, mode: &Mode, findings: &mut Findings) {
-        let [mut q, mut v] = core::mem::take(&mut self.state);
-        step.state(s, &mut q, &mut v);
-        let at = Situation {
-            time: step.time + step.length * s,
-            q: &q,
-            v: &v,
-            acceleration: &[],
-            forces: &[],
-            loads: &[],
-            shared: false,
-        };
+        let mut state = core::mem::take(&mut self.state);
+        step.state(s, &mut state.q, &mut state.v);
+        let at = Situation::of_state(step.time + step.length * s, &state);
         self.see(at, mode, false, findings);
-        self.state = [q, v];
+        self.state = state;
     }
 
     /// Looks at an instant: at the guards that read forces, or at the others.

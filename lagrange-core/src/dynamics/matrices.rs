@@ -249,18 +249,21 @@ impl<T: Scalar> LeastForces<T> {
     /// Makes force `i` zero, unless it is determined, and those of the others that can be chosen the least; how they follow from it, per force.
     pub(crate) fn choose_zero(&mut self, i: usize) -> Option<Vec<T>> {
         let along = self.freedom.choose(i)?;
-        let mut forces = core::mem::take(&mut self.forces);
-        let changes: Vec<T> = along.iter().map(|&part| -(part * forces[i])).collect();
-        for (force, &change) in forces.iter_mut().zip(&changes) {
-            *force += change;
-        }
-        self.follow(&changes, &mut forces);
-        self.forces = forces;
+        let changes = along.iter().map(|&part| -(part * self.forces[i]));
+        self.forces = self.changed(&changes.collect::<Vec<T>>());
         Some(along)
     }
 
+    /// The forces with these `changes`, and with what multipliers of quaternions follow from them.
+    pub(crate) fn changed(&self, changes: &[T]) -> Vec<T> {
+        let pairs = self.forces.iter().zip(changes);
+        let mut forces: Vec<T> = pairs.map(|(&force, &change)| force + change).collect();
+        self.follow(changes, &mut forces);
+        forces
+    }
+
     /// Changes the multipliers of quaternions among `forces` as follows from `changes` of the others.
-    pub(crate) fn follow(&self, changes: &[T], forces: &mut [T]) {
+    fn follow(&self, changes: &[T], forces: &mut [T]) {
         for (k, parts) in &self.attitudes {
             forces[*k] -= dot(parts, changes);
         }

@@ -12,6 +12,15 @@ pub(crate) fn negligible<T: Scalar>() -> f64 {
     4096.0 * epsilon::<T>()
 }
 
+/// The power of two near 1/√x by which a matrix is equilibrated without rounding; 1 for x = 0.
+pub(super) fn inverse_root(x: f64) -> f64 {
+    if x > 0.0 && x.is_finite() {
+        (-0.5 * x.log2()).round().exp2()
+    } else {
+        1.0
+    }
+}
+
 /// Σ xᵢ yᵢ
 #[inline]
 pub(crate) fn dot<T: Scalar>(x: &[T], y: &[T]) -> T {

@@ -63,17 +63,16 @@ impl<T: Scalar> Run<T> {
         }
         self.recorder.finished |= self.has_seen_all();
         // The marks of the step are among them.
-        match !self.recorder.finished && self.events() > self.settings.max_events {
-            true => Err(self.limit("events", self.settings.max_events)),
-            false => Ok(()),
+        match self.recorder.finished {
+            true => Ok(()),
+            false => self.check_limit("events", self.events(), self.settings.max_events),
         }
     }
 
     /// Whether the run has neither come to a limit nor been stopped.
     fn check_whether_to_go_on(&mut self) -> Result<(), Error> {
-        if self.recorder.trajectory.work.steps >= self.settings.max_steps {
-            return Err(self.limit("steps", self.settings.max_steps));
-        }
+        let steps = self.recorder.trajectory.work.steps + 1;
+        self.check_limit("steps", steps, self.settings.max_steps)?;
         self.check_reach()?;
         self.check_progress()?;
         if let Some(monitor) = &self.settings.monitor {
@@ -251,9 +250,7 @@ impl<T: Scalar> Run<T> {
 
     /// Counts a switch; too many at one time, or in all, those that change nothing among them, end the run.
     fn count_switch(&mut self) -> Result<(), Error> {
-        if self.events() >= self.settings.max_events {
-            return Err(self.limit("events", self.settings.max_events));
-        }
+        self.check_limit("events", self.events() + 1, self.settings.max_events)?;
         self.switcher.stuck.push(&self.now.mode);
         if self.switcher.stuck.len() < MOST_EVENTS_AT_ONCE {
             return Ok(());

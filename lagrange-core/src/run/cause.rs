@@ -64,7 +64,9 @@ impl<T: Scalar> Run<T> {
             what, item, cause, ..
         } = &mut error
         {
-            if self.exponentials_overflow() && !self.has_gone_far() {
+            // Functions of a state that has gone far are large because of that.
+            let has_gone_far = self.sizes_of_state().any(|size| size > LARGEST);
+            if !has_gone_far && self.exponentials_overflow() {
                 *cause = NotFinite::Exponential;
             } else if let Some((name, why)) = self.item_without_value() {
                 (*what, *item) = (format!("`{name}`, with {why} in it,"), Some(name));
@@ -102,12 +104,11 @@ impl<T: Scalar> Run<T> {
     fn evaluated(&self, wanted: impl IntoIterator<Item = usize>) -> Evaluator {
         let system = self.dynamics.system();
         let mut evaluator = Evaluator::new(system.declaration(), &system.parameters(), wanted);
-        let numbers = |list: &[T]| -> Vec<f64> { list.iter().map(|x| x.value()).collect() };
-        let State { q, v, .. } = &self.now.state;
+        let State { q, v, .. } = &self.now.state.values();
         evaluator.evaluate(Inputs {
             time: self.now.t.value(),
-            q: &numbers(q),
-            v: &numbers(v),
+            q,
+            v,
             acceleration: &vec![0.0; q.len()],
             forces: &vec![0.0; self.description().rows.len()],
             loads: &vec![0.0; self.description().forces.len()],
@@ -127,21 +128,18 @@ impl<T: Scalar> Run<T> {
         })
     }
 
-    /// Whether the state itself is so large that products of it are beyond all numbers.
-    fn has_gone_far(&self) -> bool {
+    /// The sizes of all coordinates and velocities.
+    fn sizes_of_state(&self) -> impl Iterator<Item = f64> + '_ {
         let State { q, v, .. } = &self.now.state;
-        let mut sizes = q.iter().chain(v).map(|x| x.value().abs());
-        sizes.any(|size| size > LARGEST)
+        q.iter().chain(v).map(|x| x.value().abs())
     }
 
     /// Whether parameters, the state or its accelerations are of a size that products leave the range of numbers with.
     fn is_out_of_range(&self) -> bool {
-        let system = self.dynamics.system();
-        let parameters = 0..self.description().parameters.len();
-        let parameters = parameters.map(|i| system.parameter(i));
-        let State { q, v, .. } = &self.now.state;
-        let moving = q.iter().chain(v).chain(self.dynamics.acceleration());
-        let mut sizes = parameters.chain(moving.copied()).map(|x| x.value().abs());
+        let parameters = self.dynamics.system().parameters().into_iter();
+        let accelerations = self.dynamics.acceleration().iter().map(|x| x.value());
+        let others = parameters.chain(accelerations).map(f64::abs);
+        let mut sizes = self.sizes_of_state().chain(others);
         sizes.any(|size| size > LARGEST || size > 0.0 && size < LARGEST.recip())
     }
 

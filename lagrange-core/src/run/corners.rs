@@ -232,13 +232,12 @@ impl<T: Scalar> Run<T> {
         let Some((_, branch)) = d.branches.iter().enumerate().find(differs) else {
             return Ok(());
         };
-        let numbers = |list: &[T]| -> Vec<f64> { list.iter().map(|x| x.value()).collect() };
-        let [q, v] = [&self.now.state.q, &self.now.state.v].map(|x| numbers(x));
+        let State { q, v, .. } = &self.now.state.values();
         let time = self.now.t.value();
         let at = Inputs {
             time,
-            q: &q,
-            v: &v,
+            q,
+            v,
             acceleration: &vec![0.0; q.len()],
             forces: &[],
             loads: &[],

@@ -79,12 +79,17 @@ impl<T: Scalar> Run<T> {
         self.not_finite(&format!("{what} of `{item}`{beyond}"))
     }
 
-    /// More happened than a run may have of it.
-    pub(super) fn limit(&self, what: &'static str, limit: usize) -> Error {
-        Error::Limit {
-            time: self.now.t.value(),
-            what,
-            limit,
+    /// Whether no more happens than a run may have of it.
+    pub(super) fn check_limit(
+        &self,
+        what: &'static str,
+        count: usize,
+        limit: usize,
+    ) -> Result<(), Error> {
+        let time = self.now.t.value();
+        match count > limit {
+            true => Err(Error::Limit { time, what, limit }),
+            false => Ok(()),
         }
     }
 

@@ -10,7 +10,7 @@ use crate::dynamics::Dynamics;
 use crate::effects::Item;
 use crate::error::Error;
 use crate::mode::{FrictionMode, Mode};
-use crate::system::{Constraint, Load, ValueRef};
+use crate::system::{Constraint, Description, Load, ValueRef};
 
 /// Energies at one instant, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -111,6 +111,11 @@ fn items(forces: usize, dissipations: usize) -> impl Iterator<Item = Item> {
     (0..forces)
         .map(Item::Force)
         .chain((0..dissipations).map(Item::Dissipation))
+}
+
+/// The place of a row among powers: behind those of forces and dissipations.
+pub(super) fn place_of_row(d: &Description, row: usize) -> usize {
+    d.forces.len() + d.dissipations.len() + row
 }
 
 /// Tells energies and powers at any time of a trajectory.
@@ -254,13 +259,13 @@ impl<'a, T: Scalar> EnergyMeter<'a, T> {
         let state = self.sampler.place(index, s)?;
         let time = segment.t + segment.h * s;
         let d = self.trajectory.description();
-        let loads = d.forces.len() + d.dissipations.len();
         out.fill(T::zero());
         let (sampler, working) = (&mut self.sampler, &self.working);
         if working.solved || working.undecided {
             let forces = sampler.evaluate_entered(time, mode, &state)?.forces;
             for &row in &working.rows {
-                out[loads + row] = forces[row] * sampler.dynamics.speed_along(row, &state.v);
+                out[place_of_row(d, row)] =
+                    forces[row] * sampler.dynamics.speed_along(row, &state.v);
             }
         } else {
             sampler.dynamics.report_of_state(time, &state.q, &state.v);

@@ -118,7 +118,6 @@ fn relative(difference: f64, x: f64, size: f64) -> f64 {
 impl Summary {
     /// What is compared of this run.
     pub fn of<T: Scalar>(record: &Trajectory<T>) -> Self {
-        let values = |list: &[T]| list.iter().map(|x| x.value()).collect();
         let events = record.events().iter();
         Summary {
             description: record.description(),
@@ -126,36 +125,30 @@ impl Summary {
                 .map(|event| (event.subject, event.kind, event.time.value()))
                 .collect(),
             time: record.last_time(),
-            state: State::new(
-                values(&record.final_state().q),
-                values(&record.final_state().v),
-            ),
+            state: record.final_state().values(),
             sizes: record.asked.sizes.clone(),
         }
     }
 
     /// How far it is from another run of the same system.
     pub fn compare(&self, other: &Summary) -> Difference {
-        let (events, mut event_error, parting) = self.compare_events(other);
+        let (events, event_error, parting) = self.compare_events(other);
         let mut difference = Difference {
             state: State::default(),
             events,
             state_error: f64::INFINITY,
             coordinate: String::new(),
-            event_error: None,
+            event_error,
             parting,
         };
         if difference.parting.is_none() {
             self.compare_states(other, &mut difference);
             let end = relative((self.time - other.time).abs(), self.time, 1.0);
             if end > 0.0 {
-                event_error = Some(event_error.map_or(end, |error| error.max(end)));
+                difference.event_error = Some(event_error.map_or(end, |error| error.max(end)));
             }
         }
-        Difference {
-            event_error,
-            ..difference
-        }
+        difference
     }
 
     fn compare_states(&self, other: &Summary, difference: &mut Difference) {

@@ -5,7 +5,7 @@
 //! polynomials by Gauss–Legendre quadrature; impacts add their jumps, of which each item has
 //! the work of its impulse. What is left over is the closure error.
 
-use super::energy::{Energies, EnergyMeter};
+use super::energy::{Energies, EnergyMeter, place_of_row};
 use super::{EventKind, State, Trajectory};
 use crate::arithmetic::Scalar;
 use crate::dynamics::row_name;
@@ -263,7 +263,6 @@ fn jumps<T: Scalar>(
     (work, entries): (&mut Vec<Entry>, &[usize]),
 ) -> Result<Vec<(f64, usize, f64)>, Error> {
     let d = trajectory.description();
-    let loads = d.forces.len() + d.dissipations.len();
     let mut jumps = Vec::new();
     let time = work.iter().position(|e| e.kind == "time");
     let mode_of = |mode: &Mode| {
@@ -309,7 +308,7 @@ fn jumps<T: Scalar>(
             for (row, share) in meter.works_of_impulses(event) {
                 let item = row_name(d, row);
                 let other = match kind(d, row) {
-                    "constraint" if d.rows[row].rheonomic => entries[loads + row],
+                    "constraint" if d.rows[row].rheonomic => entries[place_of_row(d, row)],
                     _ if item == name => continue,
                     _ => entry_of_impact(work, item),
                 };

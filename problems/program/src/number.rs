@@ -10,6 +10,14 @@ pub(crate) fn significant(x: f64) -> f64 {
     format!("{x:.5e}").parse().unwrap_or(0.0)
 }
 
+/// The digits of a number without zeros behind the point that say nothing.
+pub(crate) fn without_zeros(digits: &str) -> &str {
+    match digits.contains('.') {
+        true => digits.trim_end_matches('0').trim_end_matches('.'),
+        false => digits,
+    }
+}
+
 /// A finite number, or an expression that is one.
 ///
 /// # Errors

@@ -10,6 +10,8 @@
 #[cfg(test)]
 mod tests;
 
+use super::lu::inverse_root;
+
 /// After equilibration smaller elements are rounding and no pivots.
 const NEGLIGIBLE: f64 = 1e-11;
 
@@ -232,14 +234,5 @@ impl Lemke {
         self.coefficients[row * width..(row + 1) * width].copy_from_slice(&self.pivot_row);
         self.constants[row] = constant;
         core::mem::swap(&mut self.basic[row], &mut self.nonbasic[column]);
-    }
-}
-
-/// The power of two near 1/√x, 1 for x = 0.
-fn inverse_root(x: f64) -> f64 {
-    if x > 0.0 && x.is_finite() {
-        (-0.5 * x.log2()).round().exp2()
-    } else {
-        1.0
     }
 }

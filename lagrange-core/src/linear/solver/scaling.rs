@@ -5,18 +5,10 @@
 
 use super::{Inertia, Solver, UnitQuaternion};
 use crate::arithmetic::{LIGHT, Scalar};
+use crate::linear::lu::inverse_root;
 
 /// A row that is so much smaller than another by what has inertia says nothing about it.
 const NEARLY_NOTHING: f64 = 1e-6;
-
-/// The power of two near 1/√x.
-fn inverse_root(x: f64) -> f64 {
-    if x > 0.0 && x.is_finite() {
-        (-0.5 * x.log2()).round().exp2()
-    } else {
-        1.0
-    }
-}
 
 impl<T: Scalar> Solver<T> {
     /// Adds κ aᵀ (a v̇ + γ), which vanishes, to the equations of quaternions, whose inertia is singular along themselves: it is positive definite then, and

@@ -8,7 +8,7 @@
 //! 1991, Computer Methods in Applied Mechanics and Engineering 92, 353; g is what an impulse does to its own rate).
 
 use super::collision::{Collision, FrictionRow, NormalSource};
-use super::pattern::{Pattern, Phase, Slide, length};
+use super::pattern::{Pattern, Phase, Slide, held, length};
 use crate::arithmetic::{Scalar, rounding};
 
 /// Newton steps for directions of slip.
@@ -42,7 +42,7 @@ impl<T: Scalar> Pattern<T> {
                     Some(share) => share.write(count, &mut matrix),
                     None => {
                         let all = self.unknowns.iter();
-                        matrix.extend(all.map(|&row| self.plain_effect(c, i, row)));
+                        matrix.extend(all.map(|&row| self.effect(c, i, row, straight)));
                     }
                 }
                 right.push(self.missing(c, phase, at));
@@ -69,8 +69,7 @@ impl<T: Scalar> Pattern<T> {
                 size = f64::max(size, scale * self.impulses[row].value().abs());
                 self.impulses[row] += x;
             }
-            self.slide_fixed(c);
-            self.move_on(c, phase);
+            self.move_on(c, phase, straight);
             // Quadratic: what is left after a step this small is rounding. Of a small slip rounding leaves the direction open.
             let stalls = change >= 0.5 * last;
             if change <= rounding::<T>(1e-15) * size
@@ -102,29 +101,6 @@ impl<T: Scalar> Pattern<T> {
                 })
         };
         (0..linear).all(meets) && c.rubs.iter().zip(&self.slides).all(turns)
-    }
-
-    /// [`Self::slide`] for what has one component.
-    fn slide_fixed(&mut self, c: &Collision<T>) {
-        for (rub, slide) in c.rubs.iter().zip(&self.slides) {
-            if let Slide::Along(sign) = *slide {
-                let normal = rub.factor * self.impulses[c.bearing_row(rub)];
-                self.impulses[rub.row] = T::from_f64(-sign) * rub.slide * normal;
-            }
-        }
-    }
-
-    /// [`Self::effect`] without the turning frictions.
-    fn plain_effect(&self, c: &Collision<T>, i: usize, row: usize) -> T {
-        let mut effect = c.g(i, row);
-        for (rub, slide) in c.rubs.iter().zip(&self.slides) {
-            if let Slide::Along(sign) = *slide
-                && c.bearing_row(rub) == row
-            {
-                effect += T::from_f64(-sign) * rub.slide * rub.factor * c.g(i, rub.row);
-            }
-        }
-        effect
     }
 
     /// Where a turning friction heads; `None` where it has no direction.
@@ -166,7 +142,8 @@ impl<T: Scalar> Pattern<T> {
         for k in 0..2 {
             for &row in &self.unknowns {
                 let own = [0, 1].map(|l| unit(row == rub.row + l));
-                let dw = [0, 1].map(|l| own[l] - share * self.plain_effect(c, rub.row + l, row));
+                let dw =
+                    [0, 1].map(|l| own[l] - share * self.effect(c, rub.row + l, row, straight));
                 let across = dw[k] - along[k] * (along[0] * dw[0] + along[1] * dw[1]);
                 let pressed = heading.coefficient * along[k] * unit(row == bearer);
                 matrix.push(own[k] - pressed - heading.normal * across / heading.length);
@@ -175,6 +152,11 @@ impl<T: Scalar> Pattern<T> {
         right.extend(heading.missing(self, rub));
         true
     }
+}
+
+/// Direction of a sliding friction that is held while turning ones find theirs.
+fn straight(slide: &Slide) -> Option<[f64; 2]> {
+    held(slide).filter(|_| !matches!(slide, Slide::Turning(_)))
 }
 
 /// Where a friction of two components heads.

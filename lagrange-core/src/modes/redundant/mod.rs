@@ -443,14 +443,10 @@ impl<T: Scalar> RedundantForces<T> {
 
     /// The forces that act, of least norm within the bounds, or as near to that as any are.
     fn within_bounds(&self) -> Vec<T> {
-        let mut forces = self.least.forces.clone();
-        if let Some(changes) = self.bounds.forces.shares(0.0) {
-            for (force, &change) in forces.iter_mut().zip(&changes) {
-                *force += change;
-            }
-            self.least.follow(changes.as_slice(), &mut forces);
+        match self.bounds.forces.shares(0.0) {
+            Some(changes) => self.least.changed(changes.as_slice()),
+            None => self.least.forces.clone(),
         }
-        forces
     }
 
     /// Forces of all rows that move the system in the same way as those last looked at, and are others wherever they are undetermined.
@@ -464,12 +460,7 @@ impl<T: Scalar> RedundantForces<T> {
             .map(|i| (i, T::from_f64(size / (1.0 + (i as f64).sqrt()))))
             .collect();
         let changes = self.least.freedom.part(&parts);
-        let mut forces = self.least.forces.clone();
-        for (force, &change) in forces.iter_mut().zip(&changes) {
-            *force += change;
-        }
-        self.least.follow(changes.as_slice(), &mut forces);
-        dynamics.forces_of_acting(&forces)
+        dynamics.forces_of_acting(&self.least.changed(changes.as_slice()))
     }
 
     /// Whether the force of each row is undetermined.

@@ -135,23 +135,17 @@ impl<T: Scalar> Run<T> {
         if *corrections == 0 {
             self.locator.refuted.clear();
         }
-        let critical = self.switcher.redundant.critical(BORDER);
-        let value = critical
-            .as_ref()
-            .map(|composite| self.joint_value(composite));
-        let fallen = self
-            .locator
-            .fallen
-            .iter()
-            .find_map(|guard| match (hit, guard) {
-                (Hit::Guards(_), Guard::Composite(k)) => Some(*k),
-                _ => None,
-            });
+        let critical = self.critical();
+        let mut guards = self.locator.fallen.iter();
+        let fallen = guards.find_map(|guard| match (hit, guard) {
+            (Hit::Guards(_), Guard::Composite(k)) => Some(*k),
+            _ => None,
+        });
         let composites = &mut self.locator.polynomials.composites;
         // Located by the forces themselves: roots of others before it are those of weights that belong to another instant.
-        if let (Some(k), Some(composite), Some(value)) = (fallen, &critical, value)
+        if let (Some(k), Some((composite, value))) = (fallen, &critical)
             && composites[k].falls_after.is_some()
-            && value <= ROOT
+            && *value <= ROOT
         {
             composites[k].parts.clone_from(&composite.parts);
             return false;
@@ -163,8 +157,8 @@ impl<T: Scalar> Run<T> {
         // The weights of an instant may be none of another.
         let asks_forces = asks_forces && last_kept > 0.0;
         let composites = &mut self.locator.polynomials.composites;
-        match (fallen, critical, value) {
-            (None, Some(composite), Some(value)) if value < -ROOT => {
+        match (fallen, critical) {
+            (None, Some((composite, value))) if value < -ROOT => {
                 let refuted = is_like_one_of(&self.locator.refuted, &composite);
                 match looked > 0.0 && (refuted || asks_forces) {
                     true => again |= self.locates_a_joint([last_kept, looked], looked),
@@ -174,7 +168,7 @@ impl<T: Scalar> Run<T> {
                     }
                 }
             }
-            (Some(k), Some(composite), Some(value)) => {
+            (Some(k), Some((composite, value))) => {
                 let is_root = value.abs() <= ROOT;
                 let falls_after = composites[k].falls_after.filter(|_| is_root);
                 composites[k] = CompositeGuard {
@@ -187,7 +181,7 @@ impl<T: Scalar> Run<T> {
                     again |= self.locates_a_joint([last_kept, looked], looked);
                 }
             }
-            (Some(k), ..) => {
+            (Some(k), None) => {
                 self.locator.refuted.push(composites.remove(k));
                 again = true;
             }
@@ -227,12 +221,10 @@ impl<T: Scalar> Run<T> {
             self.evaluate()?;
         }
         // What is nearer to its border than roots are may be what has just ended.
-        let redundant = &mut self.switcher.redundant;
-        redundant.follow(&mut self.dynamics);
-        let (has_open, critical) = (redundant.has_open(), redundant.critical(BORDER));
+        self.switcher.redundant.follow(&mut self.dynamics);
         // Its value, which has been located, is known to less than the margin of the programme.
-        let falls = critical.is_some_and(|composite| self.joint_value(&composite) < ROOT);
-        let keeps = has_open && !falls;
+        let falls = self.critical().is_some_and(|(_, value)| value < ROOT);
+        let keeps = self.switcher.redundant.has_open() && !falls;
         let turns =
             keeps || self.switcher.redundant.turn(&mut self.dynamics, ROOT) || self.turns_soon()?;
         if turns {
@@ -257,10 +249,8 @@ impl<T: Scalar> Run<T> {
         let begins = (vanish || part == 0.0) && self.keeps_bounds_soon(part);
         let found = begins || LATER.iter().any(|later| turns(self, later));
         self.evaluate()?;
-        let redundant = &mut self.switcher.redundant;
-        redundant.follow(&mut self.dynamics);
-        let critical = redundant.critical(BORDER);
-        let found = found && critical.is_none_or(|composite| self.joint_value(&composite) >= -ROOT);
+        self.switcher.redundant.follow(&mut self.dynamics);
+        let found = found && self.critical().is_none_or(|(_, value)| value >= -ROOT);
         if found && begins {
             self.begin_at_borders(part);
         }
@@ -316,11 +306,7 @@ impl<T: Scalar> Run<T> {
     fn locates_a_joint(&mut self, [mut before, mut after]: [f64; 2], end: f64) -> bool {
         let critical_at = |run: &mut Self, part: f64| {
             let known = run.follows_forces_to(part);
-            let critical = known.then(|| run.switcher.redundant.critical(BORDER))?;
-            let value = critical
-                .as_ref()
-                .map(|composite| run.joint_value(composite));
-            critical.zip(value)
+            known.then(|| run.critical()).flatten()
         };
         let mut located = None;
         if critical_at(self, before).is_none_or(|(_, value)| value >= -ROOT) {
@@ -399,6 +385,13 @@ impl<T: Scalar> Run<T> {
         } else {
             0.0
         }
+    }
+
+    /// The composite guard nearest to its border at the forces looked at last, if one is near, and its value.
+    fn critical(&self) -> Option<(CompositeGuard, f64)> {
+        let composite = self.switcher.redundant.critical(BORDER)?;
+        let value = self.joint_value(&composite);
+        Some((composite, value))
     }
 
     /// A composite guard at the last value of the dynamics.

@@ -1,7 +1,7 @@
 //! Certificate → table, JSON, CSV: one line per check.
 
-use super::table::page;
-use comfy_table::{CellAlignment, ContentArrangement};
+use super::table::{align, page};
+use comfy_table::ContentArrangement;
 use lagrange_core::certificate::{Certificate, Check};
 use serde::Serialize;
 use std::io::{self, Write};
@@ -72,12 +72,7 @@ pub fn table(certificate: &Certificate, mut out: impl Write) -> io::Result<()> {
             },
         ]);
     }
-    for (index, column) in table.column_iter_mut().enumerate() {
-        column.set_padding((if index == 0 { 0 } else { 1 }, 1));
-        if (1..4).contains(&index) {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
-    }
+    align(&mut table, 1..4);
     writeln!(out, "{}\n\n{certificate}", table.trim_fmt())
 }
 

@@ -1,9 +1,9 @@
 //! Costs of effects → table, JSON, CSV.
 
-use super::table::{WIDTH, page};
+use super::table::{WIDTH, align, page};
 use super::words::Names;
 use crate::cost::{Cost, Costs, EffectCost, ModeCost};
-use comfy_table::{CellAlignment, ContentArrangement, Table};
+use comfy_table::{ContentArrangement, Table};
 use core::ops::Range;
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -30,7 +30,7 @@ pub fn table(costs: &Costs, mut out: impl Write) -> io::Result<()> {
             format!("{nanoseconds:.0}"),
         ]);
     }
-    align(&mut modes, 2);
+    align(&mut modes, 2..);
     writeln!(out, "A right-hand side:\n\n{}\n", modes.trim_fmt())?;
     writeln!(out, "What each effect adds, mode by mode:\n")?;
     // As many modes side by side as a page is wide.
@@ -88,7 +88,7 @@ fn added(costs: &Costs, modes: Range<usize>) -> Table {
         }));
         table.add_row(line);
     }
-    align(&mut table, 1);
+    align(&mut table, 1..);
     table
 }
 
@@ -96,15 +96,6 @@ fn added(costs: &Costs, modes: Range<usize>) -> Table {
 fn fits(table: &Table) -> bool {
     let mut lines = table.lines();
     lines.all(|line| line.trim_end().chars().count() <= usize::from(WIDTH))
-}
-
-fn align(table: &mut Table, first: usize) {
-    for (index, column) in table.column_iter_mut().enumerate() {
-        column.set_padding((if index == 0 { 0 } else { 1 }, 1));
-        if index >= first {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
-    }
 }
 
 /// What an effect adds to each mode: operations and ns; `None` where nothing moves without it.

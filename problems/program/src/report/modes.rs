@@ -1,14 +1,14 @@
 //! Feasible modes → table, JSON, CSV: one line per mode, with its forces and accelerations.
 
 use super::json::Numbers;
-use super::table::{Decimals, page};
+use super::table::{Decimals, align, page};
 use super::with_unit;
 use super::words::Names;
 use crate::feasible::Feasible;
 use crate::notation::{rate_unit, velocity_name};
 use crate::outcome::forces;
 use crate::outcome::rounding::ROUNDING;
-use comfy_table::{CellAlignment, ColumnConstraint, Width};
+use comfy_table::{ColumnConstraint, Width};
 use lagrange_core::error::Shortest;
 use lagrange_core::prelude::Instant;
 use serde::Serialize;
@@ -115,17 +115,14 @@ pub fn table(found: &Feasible, mut out: impl Write) -> io::Result<()> {
         let mode = names.brief(&now.mode);
         table.add_row([(k + 1).to_string(), mode].into_iter().chain(numbers));
     }
-    for (index, column) in table.column_iter_mut().enumerate() {
-        column.set_padding((if index == 0 { 0 } else { 1 }, 1));
-        if index == 1 {
+    align(&mut table, 2..);
+    for (index, column) in table.column_iter_mut().enumerate().skip(1) {
+        column.set_constraint(match index {
             // Beside many numbers, which are wider than a page, modes need not be narrow.
-            column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(LEAST)));
-        }
-        if index >= 2 {
-            column.set_cell_alignment(CellAlignment::Right);
+            1 => ColumnConstraint::LowerBoundary(Width::Fixed(LEAST)),
             // Neither a number nor the name of an acceleration is broken.
-            column.set_constraint(ColumnConstraint::ContentWidth);
-        }
+            _ => ColumnConstraint::ContentWidth,
+        });
     }
     writeln!(out, "{}\n", table.trim_fmt())?;
     let time = Shortest(found.time);

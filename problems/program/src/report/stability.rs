@@ -1,8 +1,8 @@
 //! Hard cases → table, JSON, CSV: one line per figure.
 
-use super::table::{page, verdict};
+use super::table::{align, page, verdict};
 use crate::stability::{Figure, Report};
-use comfy_table::{CellAlignment, ContentArrangement};
+use comfy_table::ContentArrangement;
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
@@ -38,12 +38,7 @@ pub fn table(reports: &[Report], mut out: impl Write) -> io::Result<()> {
             table.add_row(line);
         }
     }
-    for (index, column) in table.column_iter_mut().enumerate() {
-        column.set_padding((if index == 0 { 0 } else { 1 }, 1));
-        if (2..4).contains(&index) {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
-    }
+    align(&mut table, 2..4);
     writeln!(out, "{}\n", table.trim_fmt())?;
     let kept = reports.iter().filter(|report| report.holds()).count();
     writeln!(

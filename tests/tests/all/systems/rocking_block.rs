@@ -19,15 +19,18 @@ use lagrange_tests::{agree, closure, event, integral, root, run};
     ),
     contact(left: left_y >= 0),
     contact(right: right_y >= 0),
-    friction(left_grip on left: slip = der(left_x), static = mu),
-    friction(right_grip on right: slip = der(right_x), static = mu),
+    friction(left_grip on left: slip = der(left_x), static = holds, kinetic = drags),
+    friction(right_grip on right: slip = der(right_x), static = holds, kinetic = drags),
+    start(leans: theta = -lean, x = h * sin(lean) - b * cos(lean), y = h * cos(lean) + b * sin(lean)),
 )]
 struct Block {
     mass: f64,
     gravity: f64,
     b: f64,
     h: f64,
-    mu: f64,
+    holds: f64,
+    drags: f64,
+    lean: f64,
 }
 
 #[test]
@@ -38,7 +41,9 @@ fn the_corners_alternate_until_the_block_rests() {
             gravity: 9.81,
             b,
             h,
-            mu: 5.0,
+            holds: 5.0,
+            drags: 5.0,
+            lean: 0.0,
         };
         let alpha = (b / h).atan();
         let p2 = 0.75 * block.gravity / b.hypot(h);
@@ -102,33 +107,6 @@ fn the_corners_alternate_until_the_block_rests() {
     }
 }
 
-/// The block on its right corner, with a friction that holds more than it drags.
-#[derive(Lagrangian, Clone, Debug)]
-#[lagrange(
-    emit = data,
-    coordinates(x, y, theta),
-    kinetic   = (der(x)^2 + der(y)^2) / 2 + (b^2 + h^2)/6 * der(theta)^2,
-    potential = 9.81 * y,
-    define(
-        left_x = x - b * cos(theta) + h * sin(theta),
-        left_y = y - b * sin(theta) - h * cos(theta),
-        right_x = x + b * cos(theta) + h * sin(theta),
-        right_y = y + b * sin(theta) - h * cos(theta),
-    ),
-    contact(left: left_y >= 0),
-    contact(right: right_y >= 0),
-    friction(left_grip on left: slip = der(left_x), static = holds, kinetic = drags),
-    friction(right_grip on right: slip = der(right_x), static = holds, kinetic = drags),
-    start(leans: theta = -lean, x = h * sin(lean) - b * cos(lean), y = h * cos(lean) + b * sin(lean)),
-)]
-struct Leaning {
-    b: f64,
-    h: f64,
-    holds: f64,
-    drags: f64,
-    lean: f64,
-}
-
 /// A block that falls back on its other corner may rock on about it, held by friction, or lie down on both and slide: its speeds after each follow
 /// from momentum alone. The one with the smaller jump is taken, and the other one told.
 #[test]
@@ -139,14 +117,16 @@ fn a_block_may_rock_on_or_lie_down() {
         (0.6, 0.5, 0.8, 0.3, 0.08),
         (0.6, 0.5, 0.8, 0.1, 0.12),
     ] {
-        let block = Leaning {
+        let block = Block {
+            mass: 1.0,
+            gravity: 9.81,
             b,
             h,
             holds,
             drags,
             lean,
         };
-        let record = run(&block, block.at(Leaning::LEANS), 0.5);
+        let record = run(&block, block.at(Block::LEANS), 0.5);
         let event = event(&record, "left", "impact");
         let rate = event.state.v[2];
         let share = 1.0 - 1.5 * b * b / (b * b + h * h);
@@ -211,7 +191,9 @@ fn what_is_elsewhere_decides_nothing() {
         (0.6, 0.5, 0.8, 0.3, 0.08),
         (0.4, 0.6, 0.6, 0.2, 0.1),
     ] {
-        let alone = Leaning {
+        let alone = Block {
+            mass: 1.0,
+            gravity: 9.81,
             b,
             h,
             holds,
@@ -225,7 +207,7 @@ fn what_is_elsewhere_decides_nothing() {
             drags,
             lean,
         };
-        let alone = run(&alone, alone.at(Leaning::LEANS), 0.5);
+        let alone = run(&alone, alone.at(Block::LEANS), 0.5);
         let record = run(&beside, beside.at(Accompanied::LEANS), 0.5);
         let told = |record: &Trajectory<f64>| {
             let event = event(record, "left", "impact");

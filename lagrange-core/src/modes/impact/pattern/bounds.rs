@@ -2,7 +2,7 @@
 //!
 //! Of all with the same effect those of least norm count, within what bounds them: contacts push, and frictions that stick stay in their cones.
 
-use super::{Pattern, Phase, Slide};
+use super::{Pattern, Phase, Slide, held};
 use crate::arithmetic::Scalar;
 use crate::linear::{Freedom, Rank, least_norm};
 use crate::modes::impact::collision::{Collision, FrictionRow, NormalSource};
@@ -18,7 +18,7 @@ impl<T: Scalar> Pattern<T> {
         let columns: Vec<T> = unknowns
             .clone()
             .flat_map(|&row| (0..c.size).map(move |i| (i, row)))
-            .map(|(i, row)| self.effect(c, i, row))
+            .map(|(i, row)| self.effect(c, i, row, held))
             .collect();
         let mut shared: Vec<T> = unknowns.map(|&row| self.impulses[row]).collect();
         let rank = self.rank_of_effects(c);

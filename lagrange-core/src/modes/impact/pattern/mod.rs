@@ -155,12 +155,18 @@ impl<T: Scalar> Pattern<T> {
         }
     }
 
-    /// What a unit impulse of `row` does to rate `i`, with the sliding friction that it brings along.
-    pub(super) fn effect(&self, c: &Collision<T>, i: usize, row: usize) -> T {
+    /// What a unit impulse of `row` does to rate `i`, with the sliding friction that it brings along in each `direction`.
+    pub(super) fn effect(
+        &self,
+        c: &Collision<T>,
+        i: usize,
+        row: usize,
+        direction: fn(&Slide) -> Option<[f64; 2]>,
+    ) -> T {
         let mut effect = c.g(i, row);
         for (rub, slide) in c.rubs.iter().zip(&self.slides) {
             if c.bearing_row(rub) == row
-                && let Some(direction) = fixed(slide)
+                && let Some(direction) = direction(slide)
             {
                 for (k, part) in direction.into_iter().enumerate().take(rub.components) {
                     let share = T::from_f64(-part) * rub.slide * rub.factor;
@@ -179,7 +185,11 @@ impl<T: Scalar> Pattern<T> {
         for (at, &i) in self.unknowns.iter().enumerate() {
             match self.share_at(at) {
                 Some(share) => share.write(count, &mut matrix),
-                None => matrix.extend(self.unknowns.iter().map(|&row| self.effect(c, i, row))),
+                None => matrix.extend(
+                    self.unknowns
+                        .iter()
+                        .map(|&row| self.effect(c, i, row, held)),
+                ),
             }
         }
         self.factors.factor(&mut matrix, count);
@@ -190,16 +200,14 @@ impl<T: Scalar> Pattern<T> {
         for _ in 0..2 {
             self.improve(c, phase);
         }
-        self.slide(c);
-        self.move_on(c, phase);
+        self.move_on(c, phase, held);
         let agrees = self.agrees(c, phase);
         if !agrees || !self.factors.is_deficient() {
             return agrees;
         }
         self.undetermined = true;
         self.share(c, phase);
-        self.slide(c);
-        self.move_on(c, phase);
+        self.move_on(c, phase, held);
         let agrees = self.agrees(c, phase);
         for &i in &self.unknowns {
             self.noise[i] = self.noise[i].max(self.missed(c, phase, i));
@@ -229,8 +237,7 @@ impl<T: Scalar> Pattern<T> {
 
     /// Adds to the unknowns what the equations miss.
     fn improve(&mut self, c: &Collision<T>, phase: &Phase<T>) {
-        self.slide(c);
-        self.move_on(c, phase);
+        self.move_on(c, phase, held);
         let mut right = core::mem::take(&mut self.right);
         right.clear();
         right.extend((0..self.unknowns.len()).map(|at| self.missing(c, phase, at)));
@@ -252,20 +259,21 @@ impl<T: Scalar> Pattern<T> {
         }
     }
 
-    /// Friction impulses of what slides in a held direction.
-    fn slide(&mut self, c: &Collision<T>) {
+    /// Friction impulses of what slides in a `direction`, rates after all impulses, and what rounding leaves of them.
+    pub(super) fn move_on(
+        &mut self,
+        c: &Collision<T>,
+        phase: &Phase<T>,
+        direction: fn(&Slide) -> Option<[f64; 2]>,
+    ) {
         for (rub, slide) in c.rubs.iter().zip(&self.slides) {
-            if let Some(direction) = fixed(slide) {
+            if let Some(direction) = direction(slide) {
                 let normal = rub.factor * self.impulses[c.bearing_row(rub)];
                 for (k, part) in direction.into_iter().enumerate().take(rub.components) {
                     self.impulses[rub.row + k] = T::from_f64(-part) * rub.slide * normal;
                 }
             }
         }
-    }
-
-    /// Rates after the impulses, and what rounding leaves of them.
-    pub(super) fn move_on(&mut self, c: &Collision<T>, phase: &Phase<T>) {
         self.after.clear();
         self.noise.clear();
         let effort = c.effort(&self.impulses);
@@ -284,7 +292,7 @@ impl<T: Scalar> Pattern<T> {
 }
 
 /// Direction of a sliding friction that is held while a linear system is solved.
-fn fixed(slide: &Slide) -> Option<[f64; 2]> {
+pub(super) fn held(slide: &Slide) -> Option<[f64; 2]> {
     match *slide {
         Slide::Along(sign) => Some([sign, 0.0]),
         Slide::Turning(direction) => Some(direction),

@@ -3,6 +3,7 @@
 //! Where values hardly change beside their size (an energy that is kept to 1e-9) numbers in full would be long and alike: they are counted
 //! from a round number near them, which is written once.
 
+use crate::number::without_zeros;
 use plotters::coord::ranged1d::{BoldPoints, Ranged};
 use plotters::coord::types::RangedCoordf64;
 
@@ -94,13 +95,7 @@ impl Axis {
             }
         };
         let (digits, power) = text.split_at(text.find('e').unwrap_or(text.len()));
-        match digits.contains('.') {
-            true => format!(
-                "{}{power}",
-                digits.trim_end_matches('0').trim_end_matches('.')
-            ),
-            false => text,
-        }
+        format!("{}{power}", without_zeros(digits))
     }
 
     /// Letters of its longest number, of about `count`.

@@ -1,8 +1,9 @@
 //! What came out of a sweep, to read and as JSON.
 
-use crate::report::table::page;
+use crate::number::without_zeros;
+use crate::report::table::{align, page};
 use crate::sweep::{Column, Observation, QUANTILES, Sequence, Summary, Sweep};
-use comfy_table::{CellAlignment, ContentArrangement};
+use comfy_table::ContentArrangement;
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
 
@@ -30,12 +31,7 @@ pub fn table(sweep: &Sweep, summary: &Summary, mut out: impl Write) -> io::Resul
         cells.extend(numbers.map(|x| figure(*x)));
         table.add_row(cells);
     }
-    for (index, column) in table.column_iter_mut().enumerate() {
-        column.set_padding((if index == 0 { 0 } else { 1 }, 1));
-        if index > 0 {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
-    }
+    align(&mut table, 1..);
     if numbers().next().is_some() {
         writeln!(out, "{}\n", table.trim_fmt())?;
     }
@@ -219,11 +215,7 @@ fn figure(x: f64) -> String {
     match power {
         Some(power @ -4..6) => {
             let digits = (5 - power) as usize;
-            let plain = format!("{x:.digits$}");
-            match plain.contains('.') {
-                true => plain.trim_end_matches('0').trim_end_matches('.').to_owned(),
-                false => plain,
-            }
+            without_zeros(&format!("{x:.digits$}")).to_owned()
         }
         _ => text,
     }

@@ -11,6 +11,7 @@ use super::words::{FEW, MANY};
 use crate::outcome::Outcome;
 use crate::quantity::Quantity;
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
+use core::ops::RangeBounds;
 use decimals::time;
 use lagrange_core::prelude::*;
 use lagrange_core::trajectory::Entry;
@@ -282,6 +283,16 @@ pub(super) fn page() -> Table {
         .set_content_arrangement(ContentArrangement::Dynamic)
         .set_width(WIDTH);
     table
+}
+
+/// Lays out columns from the left edge of a page; those of `numbers` stand at the right of theirs.
+pub(super) fn align(table: &mut Table, numbers: impl RangeBounds<usize>) {
+    for (index, column) in table.column_iter_mut().enumerate() {
+        column.set_padding((if index == 0 { 0 } else { 1 }, 1));
+        if numbers.contains(&index) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! From numbers to places on an axis, and the round numbers that are written beside it.
 
+use crate::number::without_zeros;
 use crate::sweep::Axis;
 
 /// An axis of a picture.
@@ -106,16 +107,9 @@ pub(super) fn short(value: f64) -> String {
     match power.parse::<i32>() {
         Ok(power @ -3..5) => {
             let after = (3 - power).max(0) as usize;
-            let plain = format!("{value:.after$}");
-            match plain.contains('.') {
-                true => plain.trim_end_matches('0').trim_end_matches('.').to_owned(),
-                false => plain,
-            }
+            without_zeros(&format!("{value:.after$}")).to_owned()
         }
-        _ => format!(
-            "{}e{power}",
-            digits.trim_end_matches('0').trim_end_matches('.')
-        ),
+        _ => format!("{}e{power}", without_zeros(digits)),
     }
 }
 
