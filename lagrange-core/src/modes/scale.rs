@@ -328,7 +328,7 @@ fn turning<T: Scalar>(
 }
 
 /// Size of what the force of each row that acts holds in balance in the equation that says it best: forcing, inertia and other forces; of a
-/// friction also what it is a part of.
+/// friction also what it is a part of, and of one that slips that alone, for no balance says how large it is.
 pub fn held<T: Scalar>(dynamics: &Dynamics<T>) -> Vec<f64> {
     let d = dynamics.description();
     let number = |place: ValueRef| dynamics.motion(place).value().abs();
@@ -363,11 +363,14 @@ pub fn held<T: Scalar>(dynamics: &Dynamics<T>) -> Vec<f64> {
             0.0
         };
     }
-    for friction in d.frictions {
+    for (friction, mode) in d.frictions.iter().zip(&dynamics.mode().frictions) {
         let normal = friction.normal.rows(d).map(|row| held[row]);
         let part = number(friction.kinetic_coefficient) * normal.sum::<f64>();
         for size in &mut held[friction.rows()] {
-            *size += part;
+            *size = match mode {
+                FrictionMode::Slip(_) => part,
+                FrictionMode::Stick | FrictionMode::Inactive => *size + part,
+            };
         }
     }
     held

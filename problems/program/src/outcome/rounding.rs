@@ -23,43 +23,68 @@ pub(crate) fn impulse(event: &Event<f64>, row: usize, description: &Description)
     }
 }
 
+/// A force that holds more than so many times the least that it ever holds, and more than it ever is, does so where its row vanishes, as that of a slider
+/// in its dead centre: by such a row the largest load is held by an infinite force.
+const USUAL: f64 = 1e6;
+
+/// 0 for a force that is what rounding leaves of one that holds this.
+pub(crate) fn force(force: f64, held: f64) -> f64 {
+    match force.abs() < ROUNDING * held {
+        true => 0.0,
+        false => force,
+    }
+}
+
 impl Outcome {
+    /// The most that the force of a row ever holds in balance, where the row does not vanish.
+    pub(crate) fn held(&self, row: usize) -> f64 {
+        let (mut least, mut most, mut largest) = (f64::INFINITY, 0.0_f64, 0.0_f64);
+        for sample in self.all_samples() {
+            let (held, force) = (sample.held[row], sample.forces[row].abs());
+            if held > 0.0 || force > 0.0 {
+                least = least.min(held.max(force));
+            }
+            most = most.max(held);
+            largest = largest.max(force);
+        }
+        most.min((USUAL * least).max(largest))
+    }
+
+    fn all_samples(&self) -> impl Iterator<Item = &Sample> {
+        let around = self.around.iter().flatten().flatten();
+        self.samples.iter().chain(&self.curve).chain(around)
+    }
+
     /// Takes them out, and what frictions can hold by them.
     pub(super) fn take_out_rounding(&mut self) {
-        let rows = self.description.rows.len();
-        let mut least = vec![0.0_f64; rows];
-        let samples = [&mut self.samples, &mut self.curve];
-        let around = self.around.iter_mut().flatten().flatten();
-        let mut samples: Vec<&mut Sample> = samples.into_iter().flatten().chain(around).collect();
-        for sample in &samples {
-            for (least, held) in least.iter_mut().zip(&sample.held) {
-                *least = least.max(ROUNDING * held);
-            }
-        }
-        let clean = |forces: &mut [f64]| {
-            for (force, least) in forces.iter_mut().zip(&least) {
-                if force.abs() < *least {
-                    *force = 0.0;
-                }
+        let rows = 0..self.description.rows.len();
+        let ever: Vec<f64> = rows.map(|row| self.held(row)).collect();
+        let clean = |forces: &mut [f64], held: Option<&[f64]>| {
+            for (row, (x, ever)) in forces.iter_mut().zip(&ever).enumerate() {
+                *x = force(*x, held.map_or(*ever, |held| ever.max(held[row])));
             }
         };
-        for sample in &mut samples {
-            clean(&mut sample.forces);
-            let limits = sample.limits.iter_mut().zip(self.description.frictions);
-            for (limit, friction) in limits {
-                *limit = limit.map(|limit| match limit.abs() < least[friction.row] {
-                    true => 0.0,
-                    false => limit,
-                });
-            }
-        }
-        for event in &mut self.events {
-            clean(&mut event.forces);
-            clean(&mut event.forces_after);
+        for (k, event) in self.events.iter_mut().enumerate() {
+            let [before, after] = [0, 1].map(|side| {
+                let sample = self.around.get(k)?[side].as_ref()?;
+                Some(&*sample.held)
+            });
+            clean(&mut event.forces, before);
+            clean(&mut event.forces_after, after);
             let impulses = 0..event.impulses.len();
             event.impulses = impulses
                 .map(|row| impulse(event, row, self.description))
                 .collect();
+        }
+        let samples = [&mut self.samples, &mut self.curve];
+        let around = self.around.iter_mut().flatten().flatten();
+        for sample in samples.into_iter().flatten().chain(around) {
+            clean(&mut sample.forces, Some(&sample.held));
+            let limits = sample.limits.iter_mut().zip(self.description.frictions);
+            for (limit, friction) in limits {
+                let held = ever[friction.row].max(sample.held[friction.row]);
+                *limit = limit.map(|limit| force(limit, held));
+            }
         }
     }
 }
@@ -68,6 +93,24 @@ impl Outcome {
 mod tests {
     use crate::file;
     use crate::request::Request;
+    use lagrange_core::mode::FrictionMode;
+
+    /// A crank that a motor turns up to a stop at its dead centre; its slide, which there nothing moves, rubs with a force that is given.
+    #[test]
+    fn what_a_vanishing_row_holds_takes_no_other_force_for_rounding() {
+        let declared = "parameters(j: \"kg m^2\" = 0.3, l: \"m\" = 0.7, T: \"N m\" = 4, F: \"N\" = 3), coordinates(a: \"rad\"),
+            kinetic = j/2*der(a)^2, force(motor: a = T), friction(rub: slip = l*der(sin(a)), limit = F),
+            contact(end: a <= pi/2), start(raised), until = 10";
+        let scene = file::scene("toggle.lagrange", declared).expect("a declaration");
+        let outcome = scene.run(&Request::default()).expect("a run");
+        let slips = outcome.samples.iter();
+        let slips =
+            slips.filter(|sample| matches!(sample.mode.frictions[0], FrictionMode::Slip(_)));
+        let mut forces = slips.map(|sample| sample.forces[0]);
+        assert!(forces.clone().count() > 10);
+        assert!(forces.all(|force| force == -3.0));
+        assert_eq!(outcome.events[0].forces_after[0], -3.0);
+    }
 
     /// Balls of 2 kg and 1 kg that touch fall 1.1 m, where they press on each other by nothing, and then lie on one another.
     #[test]

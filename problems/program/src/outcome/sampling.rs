@@ -109,6 +109,7 @@ pub(super) fn curve(
 /// the last can be read from the trajectory: nothing for other states between them. A mark has the same on both its sides.
 pub(super) fn around(trajectory: &Trajectory) -> Vec<[Option<Sample>; 2]> {
     let mut reader = Reader::new(trajectory);
+    let sizes = sizes(trajectory);
     let mut around = Vec::with_capacity(trajectory.events().len());
     for group in trajectory.events().chunk_by(|a, b| a.time == b.time) {
         let ([first, ..], [.., last]) = (group, group) else {
@@ -120,7 +121,8 @@ pub(super) fn around(trajectory: &Trajectory) -> Vec<[Option<Sample>; 2]> {
         ];
         let side = |[i, k]: [usize; 2], mode: &Mode, state: &State<f64>| {
             let mut sides = [&known[i], &known[k]].into_iter();
-            let same = sides.find(|(other, there, _)| *other == mode && are_alike(state, there));
+            let same =
+                sides.find(|(other, there, _)| *other == mode && are_alike(state, there, sizes));
             same.and_then(|(.., sample)| sample.clone())
         };
         around.extend(group.iter().map(|event| {
@@ -133,17 +135,25 @@ pub(super) fn around(trajectory: &Trajectory) -> Vec<[Option<Sample>; 2]> {
     around
 }
 
-/// Whether two states are the same but for what rounding makes of them where constraints are kept.
-fn are_alike(one: &State<f64>, other: &State<f64>) -> bool {
+/// The largest position and velocity at the ends of a motion and at its events.
+fn sizes(trajectory: &Trajectory) -> [f64; 2] {
+    let events = trajectory.events().iter();
+    let ends = [trajectory.first_state(), trajectory.final_state()];
+    let states = events.map(|event| &event.state).chain(ends);
+    let largest = |x: &[f64], size: f64| x.iter().fold(size, |size, x| size.max(x.abs()));
+    states.fold([0.0; 2], |[q, v], state| {
+        [largest(&state.q, q), largest(&state.v, v)]
+    })
+}
+
+/// Whether two states are the same but for what rounding makes of them where constraints are kept, in a motion of these sizes.
+fn are_alike(one: &State<f64>, other: &State<f64>, sizes: [f64; 2]) -> bool {
     const ALIKE: f64 = 1e-12;
-    let alike = |(one, other): (&[f64], &[f64])| {
-        let size = one.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
+    let lists = [(&*one.q, &*other.q), (&*one.v, &*other.v)];
+    lists.into_iter().zip(sizes).all(|((one, other), size)| {
         let mut pairs = one.iter().zip(other);
         pairs.all(|(x, y)| (x - y).abs() <= ALIKE * size)
-    };
-    [(&*one.q, &*other.q), (&*one.v, &*other.v)]
-        .into_iter()
-        .all(alike)
+    })
 }
 
 /// Reads samples from a trajectory.

@@ -7,7 +7,7 @@ use super::words::Names;
 use crate::feasible::Feasible;
 use crate::notation::{rate_unit, velocity_name};
 use crate::outcome::forces;
-use crate::outcome::rounding::ROUNDING;
+use crate::outcome::rounding::{self, ROUNDING};
 use comfy_table::{ColumnConstraint, Width};
 use lagrange_core::error::Shortest;
 use lagrange_core::prelude::Instant;
@@ -22,8 +22,6 @@ struct Column {
     name: String,
     unit: String,
     values: Vec<(bool, f64)>,
-    /// What rounding leaves of a force, by the most that it holds in balance.
-    least: f64,
 }
 
 /// The unit of an acceleration: `m/s²`; empty for a coordinate without a unit.
@@ -39,13 +37,11 @@ fn columns(found: &Feasible) -> Vec<Column> {
     let d = found.description;
     let every =
         |value: &dyn Fn(&Instant<f64>) -> (bool, f64)| found.modes.iter().map(value).collect();
-    let held = |row: usize| {
-        let held = found.modes.iter().map(|now| now.held[row]);
-        held.fold(0.0, f64::max)
-    };
     let forces = forces(d).into_iter().map(|force| Column {
-        least: ROUNDING * held(force.row),
-        values: every(&|now| (force.acts(d, &now.mode), now.forces[force.row])),
+        values: every(&|now| {
+            let value = rounding::force(now.forces[force.row], now.held[force.row]);
+            (force.acts(d, &now.mode), value)
+        }),
         unit: d.units.row(force.row).to_owned(),
         name: force.name,
     });
@@ -55,14 +51,13 @@ fn columns(found: &Feasible) -> Vec<Column> {
         .enumerate()
         .map(|(i, coordinate)| Column {
             values: every(&|now| (true, now.acceleration[i])),
-            least: 0.0,
             unit: acceleration_unit(coordinate.unit),
             name: velocity_name(&velocity_name(coordinate.name)),
         });
     forces.chain(accelerations).collect()
 }
 
-/// What rounding leaves of the largest number of its unit is 0, and what it leaves of what a force holds in balance.
+/// What rounding leaves of the largest number of its unit is 0.
 fn forget_rounding(columns: &mut [Column]) {
     let largest = |column: &Column| {
         let values = column.values.iter();
@@ -73,9 +68,7 @@ fn forget_rounding(columns: &mut [Column]) {
         let alike = columns.iter().zip(&sizes).filter(|(c, _)| c.unit == unit);
         alike.fold(0.0, |a: f64, (_, size)| a.max(*size))
     };
-    let least = columns
-        .iter()
-        .map(|c| (ROUNDING * of_unit(&c.unit)).max(c.least));
+    let least = columns.iter().map(|c| ROUNDING * of_unit(&c.unit));
     let least: Vec<f64> = least.collect();
     for (column, least) in columns.iter_mut().zip(least) {
         for (_, value) in &mut column.values {

@@ -167,8 +167,8 @@ fn decimals_of_forces(items: &[Force], lines: &[Line], outcome: &Outcome) -> Vec
     };
     let unit = |item: &Force| outcome.description.units.row(item.row);
     let decimals = |(k, item): (usize, &Force)| {
-        let held = outcome.samples.iter().map(|sample| sample.held[item.row]);
-        let whole = held.fold(of_all(&|other| other.source == item.source), f64::max);
+        let whole = outcome.held(item.row);
+        let whole = whole.max(of_all(&|other| other.source == item.source));
         let beside = of_all(&|other| unit(other) == unit(item));
         let whole = match whole < f64::EPSILON * beside {
             true => beside,
