@@ -239,7 +239,7 @@ impl<N: Real> Evaluator<N> {
                     Some(ordering) => N::number(f64::from(ordering as i8)),
                     None => n(operation.guard).0[0],
                 };
-                guard.choose(n(i), n(j))
+                Series(guard.choose(n(i).0, n(j).0))
             }
             op::ATAN2 => {
                 let (value, slopes) = n(i).atan2(n(j));

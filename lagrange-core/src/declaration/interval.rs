@@ -2,7 +2,6 @@
 //!
 //! Ends are rounded to the nearest number, not outwards: what is concluded from them is held against a tolerance.
 
-use super::Series;
 use super::real::Real;
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use core::ops::{Add, Mul};
@@ -126,14 +125,14 @@ impl Real for Interval {
         Self::new(x, x)
     }
 
-    fn choose(self, first: Series<Self>, second: Series<Self>) -> Series<Self> {
+    fn choose(self, first: [Self; 3], second: [Self; 3]) -> [Self; 3] {
         match self {
             _ if self.low >= 0.0 => first,
             _ if self.high < 0.0 => second,
             // What is chosen in between jumps, or its rate does.
             _ => {
-                let value = first.0[0].hull(second.0[0]);
-                Series([value, Self::ANYTHING, Self::ANYTHING])
+                let value = first[0].hull(second[0]);
+                [value, Self::ANYTHING, Self::ANYTHING]
             }
         }
     }

@@ -1,6 +1,5 @@
 //! What a declaration can be evaluated with: a number, several side by side, or an interval of numbers.
 
-use super::Series;
 use crate::arithmetic::Pack;
 use core::ops::{Add, Mul};
 
@@ -12,8 +11,8 @@ pub trait Real: Copy + Default + Add<Output = Self> + Mul<Output = Self> {
     /// This number.
     fn number(x: f64) -> Self;
 
-    /// `first` where it is ≥ 0, and `second` elsewhere.
-    fn choose(self, first: Series<Self>, second: Series<Self>) -> Series<Self>;
+    /// The numbers of `first` where it is ≥ 0, and those of `second` elsewhere: values with their coefficients in time.
+    fn choose(self, first: [Self; 3], second: [Self; 3]) -> [Self; 3];
 
     /// What a change makes as a factor: 0 where nothing changes, also of what is infinite.
     fn times_change(self, change: Self) -> Self;
@@ -67,7 +66,7 @@ impl Real for f64 {
         x
     }
 
-    fn choose(self, first: Series, second: Series) -> Series {
+    fn choose(self, first: [Self; 3], second: [Self; 3]) -> [Self; 3] {
         if self >= 0.0 { first } else { second }
     }
 
@@ -163,12 +162,12 @@ impl<const L: usize> Real for Pack<f64, L> {
         Self([x; L])
     }
 
-    fn choose(self, first: Series<Self>, second: Series<Self>) -> Series<Self> {
+    fn choose(self, first: [Self; 3], second: [Self; 3]) -> [Self; 3] {
         let mut chosen = first;
         for (lane, guard) in self.0.into_iter().enumerate() {
-            let of = |x: &Series<Self>| Series(x.0.map(|c| c.0[lane]));
-            let one = guard.choose(of(&first), of(&second));
-            for (to, c) in chosen.0.iter_mut().zip(one.0) {
+            let of = |x: [Self; 3]| x.map(|c| c.0[lane]);
+            let one = guard.choose(of(first), of(second));
+            for (to, c) in chosen.iter_mut().zip(one) {
                 to.0[lane] = c;
             }
         }
