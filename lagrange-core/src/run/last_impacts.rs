@@ -7,10 +7,11 @@ use super::Run;
 use crate::arithmetic::Scalar;
 use crate::effects::Item;
 use crate::error::Error;
-use crate::mode::FrictionMode;
+use crate::mode::{FrictionMode, Sliding};
 use crate::modes::facts::SwitchFacts;
 use crate::modes::guard::Guard;
 use crate::modes::impact::Impact;
+use crate::system::Normal;
 use crate::trajectory::{EventKind, State, Subject};
 
 /// A guard that has fallen to this share of itself has come to rest.
@@ -139,6 +140,9 @@ impl<T: Scalar> Run<T> {
         let mut near = core::mem::take(&mut self.switcher.near);
         near.clear();
         near.extend((0..d.contacts.len()).filter(|&c| facts.touching[c]));
+        if !remaining.is_zero() {
+            self.begin_flight(outcome)?;
+        }
         self.fly_to_rest(&near, remaining, outcome)?;
         let rest = core::mem::take(&mut self.switcher.collider.rest);
         // What comes to rest here does so together with what it lifts.
@@ -162,6 +166,42 @@ impl<T: Scalar> Run<T> {
         let kind = EventKind::Accumulates { impacts: count };
         self.log_here(Subject::Contact(c), kind);
         self.remember_before();
+        Ok(())
+    }
+
+    /// Begins the flight after the last impact that is followed, in which what rubs by a force of its own slips if the impact has moved it. It comes to rest
+    /// in it: the flight itself is that of what rested before.
+    fn begin_flight(&mut self, outcome: &Impact<T>) -> Result<(), Error> {
+        let d = self.description();
+        let mut closed = self.now.mode.contacts.iter().zip(&outcome.struck);
+        if closed.any(|(closed, struck)| closed & struck) {
+            return Ok(());
+        }
+        self.evaluate_all_rows()?;
+        for (f, friction) in d.frictions.iter().enumerate() {
+            let of_contact = friction.normal.contact(d).is_some();
+            let acts = self.now.mode.frictions[f];
+            let given = matches!(friction.normal, Normal::Given(_)) || of_contact;
+            if acts == FrictionMode::Stick && given && !self.slip_vanishes(f) {
+                let mut rows = friction.rows();
+                if let (Some(row), None) = (rows.next(), rows.next()) {
+                    let (rate, _) = self.rate(row);
+                    self.now.mode.frictions[f] = FrictionMode::Slip(Sliding::sign(rate.signum()));
+                }
+            }
+        }
+        let sides = self.now.mode.branches.clone();
+        for (b, branch) in d.branches.iter().enumerate() {
+            let guard = self.dynamics.motion(branch.guard).value();
+            if !branch.after_solve && guard != 0.0 {
+                self.now.mode.set_branch(b, guard > 0.0);
+            }
+        }
+        self.dynamics.set_mode(&self.now.mode);
+        let evaluated = self.evaluate_all_rows();
+        self.now.mode.branches = sides;
+        evaluated?;
+        self.log_after_impacts(&outcome.impulses);
         Ok(())
     }
 
@@ -197,6 +237,8 @@ impl<T: Scalar> Run<T> {
         let d = self.description();
         let mode = &mut self.switcher.scratch_mode;
         mode.clone_from(&self.now.mode);
+        mode.frictions
+            .clone_from(&self.recorder.before.mode.frictions);
         // What lies where nothing strikes goes on as it did.
         for c in (0..d.contacts.len()).filter(|&c| outcome.struck[c]) {
             mode.contacts[c] = false;

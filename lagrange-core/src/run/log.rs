@@ -103,9 +103,18 @@ impl<T: Scalar> Run<T> {
         }
     }
 
+    /// Logs what changes with the impacts at this instant, of these impulses, where the motion goes on in a mode in which it has been evaluated.
+    pub(super) fn log_after_impacts(&mut self, impulses: &[T]) {
+        let mut forces = core::mem::take(&mut self.recorder.forces_after);
+        let mut undetermined = core::mem::take(&mut self.recorder.undetermined_after);
+        self.reported_forces(&mut forces, &mut undetermined);
+        (self.recorder.forces_after, self.recorder.undetermined_after) = (forces, undetermined);
+        self.write_changes(impulses, false);
+        self.recorder.trajectory.enter(&self.now.mode);
+    }
+
     /// One entry per item whose state changed; frictions that come and go with their contact are not told apart.
     pub(super) fn log_changes(&mut self, impulses: &[T], ambiguous: bool) {
-        let d = self.description();
         if !self.dynamics.has_dependent_rows() {
             write_forces(&mut self.recorder.forces_after, |row| {
                 let series = self.dynamics.force_series(row);
@@ -113,6 +122,12 @@ impl<T: Scalar> Run<T> {
             });
             self.recorder.undetermined_after.clear();
         }
+        self.write_changes(impulses, ambiguous);
+    }
+
+    /// Writes down what changes from the mode before to the present one, with the forces after it.
+    fn write_changes(&mut self, impulses: &[T], ambiguous: bool) {
+        let d = self.description();
         let (before, after) = (&self.recorder.before.mode, &self.now.mode);
         // The impacts of this instant end in the mode that has now been found.
         for event in self.recorder.trajectory.events.iter_mut().rev() {
