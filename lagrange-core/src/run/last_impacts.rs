@@ -145,11 +145,12 @@ impl<T: Scalar> Run<T> {
         }
         self.fly_to_rest(&near, remaining, outcome)?;
         let rest = core::mem::take(&mut self.switcher.collider.rest);
-        // What comes to rest here does so together with what it lifts.
-        let rubbing = near.iter().flat_map(|&c| d.frictions_on(c));
-        rubbing.filter(|&f| rest.sticks[f]).for_each(|f| {
-            self.switcher.scratch_mode.frictions[f] = FrictionMode::Stick;
-        });
+        // What comes to rest here does so together with what it lifts. A slip that is zero however fast the motion is does not hold what moves on.
+        for f in near.iter().flat_map(|&c| d.frictions_on(c)) {
+            if rest.sticks[f] && !self.acts_by_rounding(f) {
+                self.switcher.scratch_mode.frictions[f] = FrictionMode::Stick;
+            }
+        }
         self.dynamics.set_mode(&self.switcher.scratch_mode);
         self.project(true)?;
         self.evaluate_all_rows()?;

@@ -135,6 +135,14 @@ impl<T: Scalar> Collision<T> {
         }
     }
 
+    /// Of the touches `within` the one that approaches fastest, if one does, beside what an impulse does to it.
+    pub fn fastest(&self, within: &[bool]) -> Option<usize> {
+        let rate = |k: usize| self.rates[self.touches[k].row].value();
+        let speed = |k: usize| rate(k) / self.strength(self.touches[k].row);
+        let approaching = (0..self.touches.len()).filter(|&k| within[k] && rate(k) < 0.0);
+        approaching.min_by(|&i, &k| speed(i).total_cmp(&speed(k)))
+    }
+
     /// Row of the bearer of a friction.
     pub fn bearing_row(&self, rub: &FrictionRow<T>) -> usize {
         match rub.bearer {

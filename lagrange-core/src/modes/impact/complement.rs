@@ -6,6 +6,9 @@
 //!
 //! with friction impulses Σ β d along a few directions d and a bound σ of the slip. The bearing impulse of a friction on a
 //! constraint is taken as known.
+//!
+//! Rates and impulses are measured by the rates that impulses have to change. A slip that is fast beside them has a unit of its own, and its σ with it: a weak
+//! impact of bodies that slide fast would be lost in the rounding of their slips.
 
 use super::collision::{Collision, NormalSource};
 use super::pattern::Phase;
@@ -28,6 +31,10 @@ pub(super) struct Linear {
     pub rays: Vec<Ray>,
     pub matrix: Vec<f64>,
     pub q: Vec<f64>,
+    /// Of rates and impulses, a power of two.
+    unit: f64,
+    /// Per friction: its unit over that of its slip.
+    shares: Vec<f64>,
     /// Per friction: coefficient in force.
     pub coefficients: Vec<f64>,
 }
@@ -117,16 +124,61 @@ impl Linear {
                     .extend([Ray::Hold(i, 1.0), Ray::Hold(i, -1.0), Ray::Held(i)]);
             }
         }
-        let m = self.rays.len();
+        self.measure(c, phase, before);
         self.matrix.clear();
         self.q.clear();
-        for i in 0..m {
-            for j in 0..m {
-                let entry = self.entry(self.rays[i], self.rays[j], c);
-                self.matrix.push(entry);
+        for &row in &self.rays {
+            let share = self.share(row);
+            for &column in &self.rays {
+                let entry = self.entry(row, column, c);
+                self.matrix.push(match column {
+                    Ray::Slip(_) | Ray::Held(_) => entry,
+                    _ => share * entry,
+                });
             }
-            let constant = self.constant(self.rays[i], c, phase, before);
-            self.q.push(constant);
+            let constant = self.constant(row, c, phase, before);
+            self.q.push(share * constant / self.unit);
+        }
+    }
+
+    /// Finds the units, as powers of two, by which nothing is rounded.
+    fn measure<T: Scalar>(&mut self, c: &Collision<T>, phase: &Phase<T>, before: &[T]) {
+        let change = |&ray: &Ray| {
+            let constant = self.constant(ray, c, phase, before);
+            match ray {
+                Ray::Press(_) => -constant,
+                Ray::Hold(..) => constant.abs(),
+                // What friction can do to its own slip.
+                Ray::Slip(r) => {
+                    let row = c.rubs[r].row;
+                    constant * self.response[row * c.size + row]
+                }
+                Ray::FrictionRow(..) | Ray::Held(_) => 0.0,
+            }
+        };
+        let unit = self.rays.iter().map(change).fold(0.0, f64::max);
+        let mut shares = core::mem::take(&mut self.shares);
+        shares.clear();
+        shares.extend(c.rubs.iter().map(|rub| {
+            let rates = rub.rows().map(|row| self.start(row, c, phase).abs());
+            let slip = rates.fold(0.0, f64::max);
+            match unit > 0.0 && slip > unit {
+                true => (unit / slip).log2().round().exp2(),
+                false => 1.0,
+            }
+        }));
+        self.shares = shares;
+        self.unit = match unit > 0.0 {
+            true => unit.log2().round().exp2(),
+            false => 1.0,
+        };
+    }
+
+    /// The unit over that of the rate of a ray.
+    fn share(&self, ray: Ray) -> f64 {
+        match ray {
+            Ray::FrictionRow(r, _) => self.shares[r],
+            _ => 1.0,
         }
     }
 
@@ -222,13 +274,13 @@ impl Linear {
         self.rates[i] + parts.sum::<f64>()
     }
 
-    /// Rate of row `i` after the impulses `z`.
+    /// Rate of row `i` after the impulses `z`, which are measured in the unit.
     pub fn rate<T: Scalar>(&self, i: usize, c: &Collision<T>, phase: &Phase<T>, z: &[f64]) -> f64 {
         let mut rate = self.start(i, c, phase);
         for (&ray, &z) in self.rays.iter().zip(z) {
             for (j, x) in Self::rows(ray, c) {
                 if x != 0.0 {
-                    rate += x * z * self.response[i * c.size + j];
+                    rate += x * z * self.unit * self.response[i * c.size + j];
                 }
             }
         }

@@ -120,8 +120,12 @@ impl<T: Scalar> Collider<T> {
         near: &[usize],
     ) -> Result<(), Error> {
         core::mem::swap(&mut self.outcome, &mut self.rest);
-        let solved = self.solve_share(dynamics, t, v, near, (Impacts::Together, 0.0));
+        let mut solved = self.solve_share(dynamics, t, v, near, (Impacts::Together, 0.0));
         core::mem::swap(&mut self.outcome, &mut self.rest);
+        // What comes to rest does so together, whatever is chosen for impacts.
+        if let Err(Error::NoImpact { together, .. }) = &mut solved {
+            *together = false;
+        }
         solved
     }
 

@@ -98,7 +98,7 @@ impl<T: Scalar> Turns<T> {
             law.phase.apart.clear();
             law.phase.apart.extend(apart);
             if !law.solve(c, &self.rates) {
-                return Err(Stuck::Unsolved(k));
+                return Err(Stuck::Unsolved(c.fastest(&law.phase.within).unwrap_or(k)));
             }
             self.count += 1;
             self.add(law);

@@ -565,3 +565,99 @@ fn restitution_does_not_begin_from_rounding() {
         );
     }
 }
+
+/// Levers in a row, of unit inertia: each presses on the next, which turns `ratio` times as fast, and slides on it. All move together; the last one is
+/// slower by so much that its contact closes with `approach`.
+fn row_of_levers(
+    slides: &[f64],
+    (ratio, approach): (f64, f64),
+    (mu, e): (f64, f64),
+) -> Collision<f64> {
+    let contacts = slides.len();
+    let place = |k: usize| ratio.powi(k as i32 - contacts as i32);
+    let mut c = Collision {
+        size: 2 * contacts,
+        ..Collision::default()
+    };
+    let mut rows = vec![vec![0.0; contacts + 1]; 2 * contacts];
+    for (k, slide) in slides.iter().enumerate() {
+        (rows[k][k], rows[k][k + 1]) = (-1.0, 1.0 / ratio);
+        rows[contacts + k][k] = -slide;
+        c.touches.push(ContactRow {
+            contact: k,
+            row: k,
+            restitution: e,
+            poisson: false,
+        });
+        c.rubs.push(FrictionRow {
+            friction: k,
+            row: contacts + k,
+            components: 1,
+            bearer: NormalSource::ContactRow(k),
+            while_touch: None,
+            factor: 1.0,
+            stick: mu,
+            slide: mu,
+        });
+    }
+    for a in &rows {
+        let sizes = a.iter().enumerate().map(|(k, a)| a.abs() * place(k));
+        c.terms.push(sizes.sum());
+        for b in &rows {
+            c.response.push(a.iter().zip(b).map(|(a, b)| a * b).sum());
+        }
+    }
+    c.rates.resize(contacts, 0.0);
+    c.rates[contacts - 1] = -approach;
+    let slips = slides.iter().enumerate();
+    c.rates.extend(slips.map(|(k, slide)| -slide * place(k)));
+    c
+}
+
+#[test]
+fn weak_impacts_of_a_row_that_slides_fast_are_solved() {
+    // All are pressed and slide on: lever k loses δ ratioᵏ, by Λₖ₋₁ / ratio − (1 + μ slideₖ) Λₖ, and the last one gains what its contact asks for.
+    let mut random = Random(fastrand::Rng::with_seed(17));
+    for number in 0..300 {
+        let contacts = 5 + random.below(6);
+        let (ratio, mu, e) = (
+            random.between(1.5, 5.0),
+            random.between(0.02, 0.6),
+            random.between(0.0, 0.6),
+        );
+        let approach = 10f64.powf(random.between(-11.0, -3.0));
+        let slides: Vec<f64> = (0..contacts)
+            .map(|k| random.between(0.2, 2.0) * ratio.powi(k as i32 - contacts as i32))
+            .collect();
+        let mut per_loss = vec![0.0; contacts];
+        let mut before = 0.0;
+        for (k, slide) in slides.iter().enumerate() {
+            before = (before / ratio + ratio.powi(k as i32)) / (1.0 + mu * slide);
+            per_loss[k] = before;
+        }
+        let loss =
+            ratio.powi(2) * (1.0 + e) * approach / (before + ratio.powi(contacts as i32 + 1));
+        let c = row_of_levers(&slides, (ratio, approach), (mu, e));
+        let mut law = Law::<f64>::default();
+        law.phase.within = vec![true; contacts];
+        assert!(
+            law.solve(&c, &c.rates),
+            "{number}: {contacts} {ratio} {approach:e}"
+        );
+        assert!(!law.lowered);
+        for (k, per_loss) in per_loss.iter().enumerate() {
+            let expected = loss * per_loss;
+            let error = (law.impulses[k] - expected).abs();
+            assert!(error <= 1e-9 * expected, "{number}, {k}: {error:e}");
+        }
+    }
+}
+
+#[test]
+fn an_impact_without_solution_names_what_approaches() {
+    // A ball that lies against a wall, and a wall that closes in on it.
+    let walls = f64::INFINITY;
+    let c = row_of_balls(&[walls, 1.0, walls], &[0.0, 0.0, -1.0], 0.5);
+    let (mut law, mut turns) = (Law::<f64>::default(), Turns::<f64>::default());
+    assert_eq!(turns.solve_groups(&c, &mut law), Err(Stuck::Unsolved(1)));
+}

@@ -38,6 +38,7 @@ mod dead_points;
 mod dependent;
 mod dependent_conditions;
 mod die;
+mod dominoes;
 mod drag;
 mod drawer;
 mod energy_jumps;
