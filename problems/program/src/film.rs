@@ -84,7 +84,6 @@ impl Reel {
     /// Draws what is kept.
     pub(crate) fn film(self) -> Film {
         let mut outcome = self.outcome;
-        without_rounding(&mut outcome);
         let Pictures { drawings, spaces } = drawn::pictures(self.declaration, &outcome);
         Film {
             drawings,
@@ -113,25 +112,6 @@ pub(crate) fn instants(trajectory: &Trajectory, count: usize) -> Vec<f64> {
     times.sort_by(f64::total_cmp);
     times.dedup();
     times
-}
-
-/// Makes forces zero that only rounding keeps from it: those below 1e-12 of the largest one.
-fn without_rounding(outcome: &mut Outcome) {
-    let samples = outcome.samples.iter().flat_map(|sample| &sample.forces);
-    let events = outcome.events.iter().flat_map(|event| &event.forces);
-    let sizes = samples.chain(events).map(|force| force.abs());
-    let least = 1e-12 * sizes.filter(|size| size.is_finite()).fold(0.0, f64::max);
-    let samples = outcome
-        .samples
-        .iter_mut()
-        .flat_map(|sample| &mut sample.forces);
-    let events = outcome
-        .events
-        .iter_mut()
-        .flat_map(|event| &mut event.forces);
-    for force in samples.chain(events).filter(|force| force.abs() < least) {
-        *force = 0.0;
-    }
 }
 
 /// At how many samples the energy books are kept at most, beside the first.
@@ -183,4 +163,22 @@ pub(crate) fn drift<'a>(
         Some(position.relative.max(velocity.relative))
     });
     residuals.reduce(f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::file;
+    use crate::request::Request;
+
+    /// A grain of 3 µg lies beside a tower of 5e8 kg: what it weighs is no rounding of what the tower weighs.
+    #[test]
+    fn a_small_force_beside_a_large_one_of_something_else_is_kept() {
+        let declared = "parameters(m: \"kg\" = 3e-9, M: \"kg\" = 5e8, g: \"m/s^2\" = 9.81), coordinates(y: \"m\", z: \"m\"),
+            kinetic = m/2*der(y)^2 + M/2*der(z)^2, potential = m*g*y + M*g*z, contact(grain: y >= 0), contact(tower: z >= 0), start(lie), until = 1";
+        let scene = file::scene("grain.lagrange", declared).expect("a declaration");
+        let film = scene.film(&Request::default()).expect("a run");
+        let samples = film.outcome.samples.iter();
+        let weights = samples.map(|sample| sample.forces[0] / (3e-9 * 9.81));
+        assert!(weights.map(|part| part - 1.0).all(|off| off.abs() < 1e-12));
+    }
 }

@@ -152,7 +152,7 @@ impl Observation {
             }
         };
         let state = event.map_or(trajectory.final_state(), |event| &event.state);
-        match (&self.what, event) {
+        let value = match (&self.what, event) {
             (What::Time, _) => event.map_or(trajectory.last_time(), |event| event.time),
             (What::Position(i), _) => state.q[*i],
             (What::Velocity(i), _) => state.v[*i],
@@ -167,7 +167,9 @@ impl Observation {
                 };
                 instant.map_or(f64::NAN, |instant| self.evaluated(&instant))
             }
-        }
+        };
+        // Not `-0`.
+        value + 0.0
     }
 
     fn evaluated(&self, instant: &Instant<f64>) -> f64 {

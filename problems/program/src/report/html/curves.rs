@@ -7,6 +7,7 @@ use crate::notation::symbol;
 use crate::number::significant;
 use crate::outcome::{Force, Outcome, Sample, Source, forces};
 use crate::quantity::{Quantity, force_word, limit_name};
+use crate::report::plot::CONSTANT;
 use lagrange_core::prelude::Ledger;
 use lagrange_core::system::Friction;
 use serde::Serialize;
@@ -73,8 +74,11 @@ const PLOTS: usize = 12;
 /// More items than this do not have curves in one plot.
 const CURVES: usize = 6;
 
-/// All plots over time, and how many of forces are left out.
-pub(super) fn plots(film: &Film) -> (Vec<Plot>, usize) {
+/// How many of these are left out.
+pub(super) type LeftOut = (&'static str, usize);
+
+/// All plots over time, and what is left out of them.
+pub(super) fn plots(film: &Film) -> (Vec<Plot>, [LeftOut; 2]) {
     let outcome = &film.outcome;
     let mut plots = frictions(outcome);
     plots.extend(pushes(outcome, "Contact forces", |source| {
@@ -83,11 +87,15 @@ pub(super) fn plots(film: &Film) -> (Vec<Plot>, usize) {
     plots.extend(pushes(outcome, "Constraint forces", |source| {
         matches!(source, Source::Constraint(_))
     }));
-    let left_out = plots.len().saturating_sub(PLOTS);
+    let forces = plots.len().saturating_sub(PLOTS);
     plots.truncate(PLOTS);
     plots.push(energies(outcome));
-    plots.extend(work(film));
-    (plots, left_out)
+    let (work, works) = work(film);
+    plots.extend(work);
+    (
+        plots,
+        [("Plots of forces", forces), ("Curves of work", works)],
+    )
 }
 
 /// Each friction that acts at some time beside what it can hold.
@@ -185,41 +193,39 @@ fn energies(outcome: &Outcome) -> Plot {
     }
 }
 
-/// The work of every item that does some, from the beginning.
-fn work(film: &Film) -> Option<Plot> {
-    let (_, last) = film.books.last()?;
+/// The work, from the beginning, of the items that do most of it, and how many others do some.
+fn work(film: &Film) -> (Option<Plot>, usize) {
+    let Some((_, last)) = film.books.last() else {
+        return (None, 0);
+    };
     let worked = |i: usize| {
         let books = film.books.iter();
         books
             .map(|(_, ledger)| ledger.work[i].work.abs())
             .fold(0.0, f64::max)
     };
-    let curves: Vec<Curve> = last
-        .work
-        .iter()
-        .enumerate()
-        .filter(|(i, _)| worked(*i) > 1e-9 * last.scale)
-        .take(CURVES)
-        .map(|(i, entry)| Curve {
-            name: format!("{} ({})", entry.name, entry.kind),
-            limit: false,
-            values: film
-                .books
-                .iter()
-                .map(|(_, ledger)| Some(significant(ledger.work[i].work)))
-                .collect(),
-        })
-        .collect();
-    (!curves.is_empty()).then(|| Plot {
+    let items = 0..last.work.len();
+    let mut items: Vec<usize> = items.filter(|&i| worked(i) > 1e-9 * last.scale).collect();
+    items.sort_by(|&a, &b| worked(b).total_cmp(&worked(a)));
+    let left_out = items.len().saturating_sub(CURVES);
+    items.truncate(CURVES);
+    items.sort_unstable();
+    let books = film.books.iter();
+    let curve = |i: usize| Curve {
+        name: format!("{} ({})", last.work[i].name, last.work[i].kind),
+        limit: false,
+        values: {
+            let works = books.clone().map(|(_, ledger)| ledger.work[i].work);
+            short(works.collect()).into_iter().map(Some).collect()
+        },
+    };
+    let plot = (!items.is_empty()).then(|| Plot {
         title: "Work since the start".to_owned(),
         axis: with_unit("work", film.outcome.description.units.energy),
-        time: film
-            .books
-            .iter()
-            .map(|(time, _)| significant(*time))
-            .collect(),
-        curves,
-    })
+        time: short(books.clone().map(|(time, _)| *time).collect()),
+        curves: items.iter().map(|&i| curve(i)).collect(),
+    });
+    (plot, left_out)
 }
 
 /// The coordinates; with how far they are from those of another run, if one is given.
@@ -252,11 +258,15 @@ fn curve(
     limit: bool,
     of: impl Fn(&Sample) -> Option<f64>,
 ) -> Curve {
-    let values = outcome.samples.iter().map(of);
+    let values: Vec<Option<f64>> = outcome.samples.iter().map(of).collect();
+    let mut told = short(values.iter().copied().flatten().collect()).into_iter();
+    let values = values.iter();
     Curve {
         name,
         limit,
-        values: values.map(|value| value.map(significant)).collect(),
+        values: values
+            .map(|value| value.and_then(|_| told.next()))
+            .collect(),
     }
 }
 
@@ -265,15 +275,16 @@ pub(super) fn over(outcome: &Outcome, of: impl Fn(&Sample) -> f64) -> Vec<f64> {
 }
 
 /// Numbers with the digits that a curve shows: six, or so many that a hundred-thousandth of what they span is left of what is
-/// almost constant.
+/// almost constant, unless only rounding changes it.
 fn short(values: Vec<f64>) -> Vec<f64> {
     let finite = || values.iter().copied().filter(|x| x.is_finite());
     let span = finite().fold(f64::MIN, f64::max) - finite().fold(f64::MAX, f64::min);
+    let size = finite().fold(0.0, |size: f64, x| size.max(x.abs()));
     let unit = 10_f64.powf(5.0 - span.log10().floor());
     let short = |x: f64| {
         let six = significant(x);
         let fine = (x * unit).round() / unit;
-        let coarse = (six - x).abs() > 1e-5 * span;
+        let coarse = span > CONSTANT * size && (six - x).abs() > 1e-5 * span;
         if coarse && fine.is_finite() {
             fine
         } else {
@@ -289,7 +300,7 @@ fn is_false(flag: &bool) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{portraits, short};
+    use super::{plots, portraits, short};
     use crate::file;
     use crate::request::Request;
 
@@ -329,6 +340,56 @@ mod tests {
         }
         assert_eq!(short(vec![1234567.0, 0.0, f64::NAN]), [1234570.0, 0.0, 0.0]);
         assert_eq!(short(vec![0.1 + 0.2; 3]), [0.3; 3]);
+        let noise = [1.23456789, 1.23456789 + 1e-15];
+        assert_eq!(short(noise.to_vec()), [1.23457; 2]);
         assert_eq!(short(Vec::new()), Vec::<f64>::new());
+    }
+
+    /// A bead on a rod of 2 m that swings by 1/500: the rod pulls with 3 m g (cos θ − cos α) + m g cos α, which changes by 6e-6 of itself.
+    #[test]
+    fn a_force_that_hardly_changes_is_a_curve() {
+        let declared = "parameters(m: \"kg\" = 3, g: \"m/s^2\" = 10, l: \"m\" = 2, a = 0.002), coordinates(x: \"m\", y: \"m\"),
+            kinetic = m/2*(der(x)^2 + der(y)^2), potential = m*g*y, constraint(rod: sqrt(x^2 + y^2) == l),
+            start(small: x = l*sin(a), y = -l*cos(a)), until = 3";
+        let scene = file::scene("small.lagrange", declared).expect("a declaration");
+        let film = scene
+            .film(&Request {
+                samples: 100,
+                ..Request::default()
+            })
+            .expect("a run");
+        let (plots, _) = plots(&film);
+        let told = &plots[0].curves[0].values;
+        for (sample, told) in film.outcome.samples.iter().zip(told) {
+            let cosine = -sample.state.q[1] / 2.0;
+            let pull = 30.0 * (3.0 * cosine - 2.0 * 0.002_f64.cos());
+            let told = told.expect("a force").abs();
+            assert!((told - pull).abs() < 3e-8, "{told} {pull}");
+        }
+    }
+
+    /// Eight masses that dampers slow down, of which the last two are by far the fastest and the first the slowest: six curves.
+    #[test]
+    fn what_does_most_work_has_a_curve() {
+        let declared = "coordinates(x[14]), kinetic = sum(k in 0..14: der(x[k])^2/2), dissipation(d[k in 0..8]: der(x[k])^2/2),
+            start(go: der(x[0]) = 1, der(x[1]) = 2, der(x[2]) = 5, der(x[3]) = 3, der(x[4]) = 4, der(x[5]) = 6, der(x[6]) = 9, der(x[7]) = 8),
+            until = 1";
+        let scene = file::scene("dampers.lagrange", declared).expect("a declaration");
+        let film = scene.film(&Request::default()).expect("a run");
+        let (plots, left_out) = plots(&film);
+        let work = plots.last().expect("a plot");
+        let names: Vec<&str> = work.curves.iter().map(|curve| &curve.name[..4]).collect();
+        assert_eq!(names, ["d[2]", "d[3]", "d[4]", "d[5]", "d[6]", "d[7]"]);
+        assert_eq!(left_out[1], ("Curves of work", 2));
+        // v = 9 e^−t.
+        let lost = work.curves[4]
+            .values
+            .last()
+            .expect("a value")
+            .expect("work");
+        assert!(
+            (lost + 40.5 * (1.0 - (-2.0_f64).exp())).abs() < 1e-4,
+            "{lost}"
+        );
     }
 }

@@ -9,7 +9,6 @@ use crate::report::frames::{SPEEDS, span, usual_speed};
 use crate::report::picture::{Picture, Stage, pictures, stages};
 use crate::report::words::Names;
 use serde::Serialize;
-use std::num::NonZeroUsize;
 
 /// What the player of the page reads.
 #[derive(Serialize)]
@@ -37,9 +36,9 @@ struct Run {
     #[serde(skip_serializing_if = "Option::is_none")]
     space: Option<Stage>,
     plots: Vec<Plot>,
-    /// Plots of forces for which there is no room.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    left_out: Option<NonZeroUsize>,
+    /// That there is no room for some plots, curves and coordinates.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    left_out: Vec<String>,
     phase: Vec<Portrait>,
     outputs: Vec<Output>,
 }
@@ -105,7 +104,15 @@ fn run(
         time: significant(event.time),
         text: format!("{} {}", event.subject.name(description), event.kind.word()),
     });
-    let (plots, left_out) = plots(&shown.film);
+    let (plots, [forces, works]) = plots(&shown.film);
+    let phase = portraits(outcome, first.map(|film| &film.outcome));
+    let coordinates = (
+        "Coordinates to choose from",
+        description.coordinates.len() - phase.len(),
+    );
+    let left_out = [forces, works, coordinates].into_iter();
+    let left_out = left_out.filter(|(_, count)| *count > 0);
+    let left_out = left_out.map(|(what, count)| format!("{what} that are left out: {count}."));
     Run {
         title: shown.title.clone(),
         scene: outcome.scene,
@@ -116,8 +123,8 @@ fn run(
         picture,
         space,
         plots,
-        left_out: NonZeroUsize::new(left_out),
-        phase: portraits(outcome, first.map(|film| &film.outcome)),
+        left_out: left_out.collect(),
+        phase,
         outputs: outputs(outcome),
     }
 }

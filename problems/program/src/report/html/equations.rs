@@ -1,7 +1,8 @@
 //! What was derived for a run, typeset: declaration, energies, equations of motion, rows, and each mode that the run was in.
 
-use super::Shown;
+use super::{Shown, minus};
 use crate::outcome::Outcome;
+use crate::report::table::time;
 use lagrange_core::prelude::*;
 use lagrange_engine::inspect::print::mathml::{self, escaped};
 use lagrange_engine::inspect::print::{said, titled};
@@ -143,7 +144,12 @@ fn modes(run: &Shown, derived: &inspect::Derivation) -> String {
     }
     let mut out = String::from("<h4>Modes of this run</h4>\n");
     for (name, spans) in names.iter().take(MODES) {
-        let _ = write!(out, "<h5>{}</h5>\n<p>{}</p>\n", escaped(name), when(spans));
+        let _ = write!(
+            out,
+            "<h5>{}</h5>\n<p>{}</p>\n",
+            escaped(name),
+            when(spans, outcome.lasts())
+        );
         let known = derived
             .modes
             .iter()
@@ -275,12 +281,13 @@ fn name(outcome: &Outcome, mode: &Mode) -> String {
     }
 }
 
-/// When a run was in a mode.
-fn when(spans: &[[f64; 2]]) -> String {
+/// When a run, which `lasts` so long, was in a mode.
+fn when(spans: &[[f64; 2]], lasts: f64) -> String {
     let told = spans.iter().take(SPANS);
-    let told =
-        told.map(|[from, to]| format!("{} s to {} s", super::short(*from), super::short(*to)));
-    let told: Vec<String> = told.collect();
+    let at = |instant: f64| minus(&time(instant, lasts));
+    let told: Vec<String> = told
+        .map(|[from, to]| format!("{} s to {} s", at(*from), at(*to)))
+        .collect();
     let more = match spans.len().saturating_sub(SPANS) {
         0 => String::new(),
         more => format!(", and {more} more times"),

@@ -154,18 +154,9 @@ fn section((index, run): (usize, &Shown), several: bool) -> String {
     )
 }
 
-/// Six digits.
-fn short(x: f64) -> String {
-    let size = x.abs();
-    let text = match size {
-        0.0 => return "0".to_owned(),
-        s if !(1e-4..1e6).contains(&s) => return format!("{x:.3e}").replace('-', "−"),
-        s => {
-            let decimals = (5 - s.log10().floor() as i32).max(0) as usize;
-            format!("{x:.decimals$}")
-        }
-    };
-    text.replace('-', "−")
+/// A number with the sign that is as wide as a plus.
+fn minus(number: &str) -> String {
+    number.replace('-', "−")
 }
 
 #[cfg(test)]
@@ -217,7 +208,7 @@ mod tests {
         let (i, work) = (jump(&times), numbers(&plots[1]["curves"][0]["values"]));
         assert_eq!([times[i], work[i], work[i + 1]], [1.0, 0.0, -75.0]);
         let tables = tables::tables(&run);
-        assert!(tables.contains("<td>30.0000 N s</td>"), "{tables}");
+        assert!(tables.contains("<td>30.000 N s</td>"), "{tables}");
         assert!(!tables.contains("meaning"), "{tables}");
     }
 
@@ -245,7 +236,26 @@ mod tests {
              friction(rub: slip = der(a), limit = 2), start(rest: a = 0), until = 1,",
         );
         let tables = tables::tables(&run);
-        assert!(tables.contains("<td>−2.00000</td>"), "{tables}");
-        assert!(!tables.contains("−5.00000"), "{tables}");
+        assert!(tables.contains("<td>−2.0000</td>"), "{tables}");
+        assert!(!tables.contains("−5.0000"), "{tables}");
+    }
+
+    /// A train of 30 m/s passes two posts that are 12 m apart, 36 000 km from where it starts.
+    #[test]
+    fn events_that_follow_each_other_closely_can_be_told_apart() {
+        let run = shown(
+            "parameters(m = 2), coordinates(x), kinetic = m/2*der(x)^2, mark(first: x - 36000000), mark(second: x - 36000012),
+             start(go: der(x) = 30), until = 1200001",
+        );
+        let tables = tables::tables(&run);
+        for cell in [
+            ">1200000.000000<",
+            ">1200000.400000<",
+            "<td>36000000</td>",
+            "<td>36000012</td>",
+            "<td>900.00</td>",
+        ] {
+            assert!(tables.contains(cell), "{cell}: {tables}");
+        }
     }
 }

@@ -41,7 +41,7 @@
       const span = spanOf(run, spec.title, spec.axis);
       shows.push(plot(part("plots"), spec, run, { ...common, span }));
     }
-    if (run.left_out) html("p", { class: "note" }, part("plots"), `Plots of forces that are left out: ${run.left_out}.`);
+    for (const note of run.left_out || []) html("p", { class: "note" }, part("plots"), note);
     return shows;
   });
   const scenes = new Set(runs.map((run) => run.scene));

@@ -1,13 +1,15 @@
 //! What a page says in tables: events, parameters, energy and accuracy.
 
-use super::{Shown, short};
+use super::{Shown, minus};
 use crate::notation::impulse_unit;
 use crate::notation::{is_angle, symbol};
 use crate::outcome::rounding::ROUNDING;
 use crate::outcome::{Force, forces};
+use crate::report::table::{Decimals, decimals_of_energies, time};
 use crate::report::words::Names;
 use lagrange_core::error::Shortest;
 use lagrange_core::prelude::*;
+use lagrange_core::trajectory::Entry;
 use lagrange_engine::inspect::print::mathml::escaped;
 use std::fmt::Write;
 
@@ -66,13 +68,21 @@ fn events(run: &Shown) -> String {
         match event.kind {
             EventKind::Impact if impulse != 0.0 => {
                 let unit = impulse_unit(description.units.row(force.row));
-                Some(format!("{} {unit}", short(impulse)).trim_end().to_owned())
+                Some((impulse, unit))
             }
             EventKind::Impact => None,
             _ => force
                 .acts(description, mode)
-                .then(|| short(rows[force.row])),
+                .then(|| (rows[force.row], String::new())),
         }
+    };
+    let position = |i: usize, event: &Event<f64>| match (
+        event.state.q[i],
+        is_angle(&description.coordinates[i]),
+    ) {
+        (q, true) if q.abs() < ROUNDING => 0.0,
+        (q, true) => q.to_degrees(),
+        (q, false) => q,
     };
     let coordinates = &description.coordinates;
     let coordinates = &coordinates[..coordinates.len().min(COLUMNS)];
@@ -89,12 +99,20 @@ fn events(run: &Shown) -> String {
             .map(|force| named(&force.name, description.units.row(force.row))),
     );
     let names = Names::of(outcome, []);
+    let of_positions =
+        (0..coordinates.len()).map(|i| Decimals::of(told.iter().map(|event| position(i, event))));
+    let of_positions: Vec<Decimals> = of_positions.collect();
+    let of_forces = all.iter().map(|one| {
+        let forces = told.iter().filter_map(|event| force(one, event));
+        Decimals::of(forces.map(|(x, _)| x))
+    });
+    let of_forces: Vec<Decimals> = of_forces.collect();
     let row = |event: &Event<f64>| {
-        let time = event.time;
+        let at = event.time;
         let mut row = vec![
             format!(
-                "<button type=\"button\" class=\"jump\" data-time=\"{time}\">{}</button>",
-                short(time)
+                "<button type=\"button\" class=\"jump\" data-time=\"{at}\">{}</button>",
+                minus(&time(at, outcome.lasts()))
             ),
             escaped(&format!(
                 "{} {}",
@@ -103,15 +121,17 @@ fn events(run: &Shown) -> String {
             )),
             escaped(&names.brief(&event.after)),
         ];
-        row.extend(coordinates.iter().zip(&event.state.q).map(|(c, q)| {
-            short(match is_angle(c) {
-                true if q.abs() < ROUNDING => 0.0,
-                true => q.to_degrees(),
-                false => *q,
-            })
+        let positions = of_positions.iter().enumerate();
+        row.extend(positions.map(|(i, decimals)| minus(&decimals.show(position(i, event)))));
+        let forces = all.iter().zip(&of_forces);
+        row.extend(forces.map(|(one, decimals)| {
+            match force(one, event) {
+                Some((x, unit)) => format!("{} {unit}", minus(&decimals.show(x)))
+                    .trim_end()
+                    .to_owned(),
+                None => "–".to_owned(),
+            }
         }));
-        let forces = all.iter().map(|one| force(one, event));
-        row.extend(forces.map(|told| told.unwrap_or_else(|| "–".to_owned())));
         row
     };
     let rows: Vec<Vec<String>> = told.iter().map(row).collect();
@@ -166,7 +186,8 @@ fn energy(run: &Shown) -> String {
         "" => String::new(),
         unit => format!(" [{}]", escaped(unit)),
     };
-    let line = |name: &str, value: f64| vec![escaped(name), short(value)];
+    let decimals = decimals_of_energies(ledger);
+    let line = |name: &str, value: f64| vec![escaped(name), minus(&decimals.show(value))];
     let both = |when: &str, energies: &Energies| {
         let mut rows = vec![
             line(&format!("kinetic, {when}"), energies.kinetic),
@@ -178,13 +199,15 @@ fn energy(run: &Shown) -> String {
         rows
     };
     let mut rows = both("at the start", &ledger.start);
-    let work = ledger
-        .work
-        .iter()
-        .filter(|e| e.work.abs() > 1e-12 * ledger.scale);
+    // Whoever did nothing that the digits show is left out.
+    let shows = |e: &&Entry| decimals.show(e.work) != decimals.show(0.0);
+    let work = ledger.work.iter().filter(shows);
     rows.extend(work.map(|e| line(&format!("work of {} ({})", e.name, e.kind), e.work)));
     rows.extend(both("at the end", &ledger.end));
-    rows.push(line("closure: what is left unexplained", ledger.closure));
+    rows.push(vec![
+        "closure: what is left unexplained".to_owned(),
+        minus(&Decimals::of([ledger.closure]).show(ledger.closure)),
+    ]);
     table(
         run,
         "Energy",

@@ -9,7 +9,7 @@ use plotters::coord::types::RangedCoordf64;
 
 /// An axis from one value to another.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Axis {
+pub(in crate::report) struct Axis {
     /// What its numbers are counted from.
     from: f64,
     /// Decimals of that.
@@ -21,7 +21,7 @@ pub(super) struct Axis {
 }
 
 /// What values differ by less than this part of their size is rounding, and they are constant on paper.
-const CONSTANT: f64 = 1e-11;
+pub(in crate::report) const CONSTANT: f64 = 1e-11;
 
 /// Numbers of an axis that spans less than this part of their size are counted from another one than zero.
 const SMALL: f64 = 1e-4;

@@ -13,6 +13,8 @@ mod curves;
 mod key;
 mod panel;
 
+pub(super) use axis::{Axis, CONSTANT};
+
 use crate::outcome::Outcome;
 use crate::quantity::{Quantity, Show};
 use curves::{Bands, bands, shown, usual};

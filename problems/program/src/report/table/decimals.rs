@@ -38,7 +38,7 @@ impl Decimals {
 }
 
 /// A time of a run that `lasts` so long: to a microsecond where that has a meaning, and to as much less as the run is shorter than 10 ms.
-pub(super) fn time(t: f64, lasts: f64) -> String {
+pub(in crate::report) fn time(t: f64, lasts: f64) -> String {
     let shorter = match lasts > 0.0 && lasts < 1e-2 {
         true => (-1.0 - lasts.log10()).ceil() as usize,
         false => 0,

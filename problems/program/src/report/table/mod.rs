@@ -12,14 +12,13 @@ use crate::outcome::Outcome;
 use crate::quantity::Quantity;
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
 use core::ops::RangeBounds;
-use decimals::time;
 use lagrange_core::prelude::*;
 use lagrange_core::trajectory::Entry;
 use line::instants;
 use std::io::{self, Write};
 use story::story;
 
-pub(super) use decimals::Decimals;
+pub(super) use decimals::{Decimals, time};
 
 /// Columns of the page.
 pub(super) const WIDTH: u16 = 100;
@@ -192,6 +191,18 @@ fn told_of(kind: Choice, outcome: &Outcome) -> Option<String> {
     ))
 }
 
+/// How the energies and works of a ledger are written.
+pub(super) fn decimals_of_energies(ledger: &Ledger) -> Decimals {
+    let energies = [&ledger.start, &ledger.end].into_iter();
+    let energies = energies.flat_map(|e| {
+        let jacobi = ledger.has_own_jacobi().then_some(e.jacobi);
+        [e.kinetic, e.potential, e.total()]
+            .into_iter()
+            .chain(jacobi)
+    });
+    Decimals::of(energies.chain(ledger.work.iter().map(|entry| entry.work)))
+}
+
 /// The ledger, and how many works are listed in it.
 fn energy(ledger: &Ledger, unit: &str) -> (Table, usize) {
     let (start, end) = (&ledger.start, &ledger.end);
@@ -203,8 +214,7 @@ fn energy(ledger: &Ledger, unit: &str) -> (Table, usize) {
     if ledger.has_own_jacobi() {
         lines.push(("Jacobi integral", start.jacobi, end.jacobi));
     }
-    let works = ledger.work.iter().map(|entry| entry.work);
-    let decimals = Decimals::of(lines.iter().flat_map(|(_, a, b)| [*a, *b]).chain(works));
+    let decimals = decimals_of_energies(ledger);
     // Whoever did nothing that the digits show is left out; of few, friction is worth a line even then.
     let frictions = ledger.work.iter().filter(|entry| entry.kind == "friction");
     let few = frictions.count() <= FEW;
@@ -311,6 +321,24 @@ mod tests {
         let text = String::from_utf8(text).expect("text");
         let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
         text.lines().map(words).collect()
+    }
+
+    /// A mass on a spring, at 4 rad/s for 9000 s with a tolerance of 1e-3: what its velocity carries it is 1000 times beside what it starts from.
+    #[test]
+    fn what_a_long_motion_starts_from_is_told() {
+        let declared = "parameters(m: \"kg\" = 2, k: \"N/m\" = 32), coordinates(x: \"m\"), kinetic = m/2*der(x)^2, potential = k/2*x^2,
+            start(pulled: x = 0.7), until = 9000";
+        let scene = scene("spring.lagrange", declared).expect("a declaration");
+        let request = Request {
+            tolerance: 1e-3,
+            ..Request::default()
+        };
+        let outcome = scene.run(&request).expect("a run");
+        let mut text = Vec::new();
+        super::write(&outcome, &mut text).expect("memory");
+        let text = String::from_utf8(text).expect("text");
+        let start = text.lines().find(|line| line.contains("start"));
+        assert!(start.is_some_and(|line| line.contains("0.70000")), "{text}");
     }
 
     /// Nine blocks on a shelf: more numbers than a line has stand below, with the times.

@@ -55,8 +55,9 @@ impl Column {
         numbers.fold(0.0, |a: f64, x| a.max(x.abs())) * self.scale
     }
 
-    /// As many as the lines need. What is nothing but error in all of them is shown beside how far its velocities carry a coordinate, or what an
-    /// output ever is; what is nothing but rounding, beside the largest number of its unit, and an angle beside 1 rad.
+    /// As many as the lines need. What is nothing but error in all of them, as what the run starts from is not, is shown beside how far its
+    /// velocities carry a coordinate, or what an output ever is; what is nothing but rounding, beside the largest number of its unit, and an
+    /// angle beside 1 rad.
     fn decimals(&self, lines: &[Line], outcome: &Outcome) -> Decimals {
         let told: Vec<f64> = lines.iter().filter_map(|line| self.of(line)).collect();
         let largest = |values: &[f64]| values.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
@@ -80,7 +81,9 @@ impl Column {
         let coordinates = outcome.description.coordinates;
         let beside = self.beside(lines, outcome.description);
         let turn = coordinates.get(self.place).filter(|c| is_angle(c));
-        if largest(&told) < outcome.tolerance * ever {
+        let start = lines.first().and_then(|line| self.of(line));
+        let exact = start.is_some_and(|start| start.abs() > ROUNDING * ever);
+        if largest(&told) < outcome.tolerance * ever && !exact {
             Decimals::of([ever])
         } else if turn.is_some() && largest(&told) < ROUNDING * self.scale {
             Decimals::of([self.scale])

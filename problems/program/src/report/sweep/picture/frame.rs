@@ -2,7 +2,7 @@
 
 use super::HEIGHT;
 use super::colours::Colours;
-use super::scale::{Scale, short};
+use super::scale::Scale;
 use crate::report::plot::{Area, Drawn, FINE, WIDTH, px, words};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
@@ -93,7 +93,7 @@ impl Frame {
             }
             line((x, bottom), (x, bottom + px(5)), 1.0)?;
             let style = words(13, &BLACK, HPos::Center, VPos::Top);
-            root.draw(&Text::new(short(number), (x, bottom + px(9)), style))?;
+            root.draw(&Text::new(self.x.label(number), (x, bottom + px(9)), style))?;
         }
         for number in self.y.ticks() {
             let y = self.row(self.y.part(number));
@@ -102,16 +102,16 @@ impl Frame {
             }
             line((left - px(5), y), (left, y), 1.0)?;
             let style = words(13, &BLACK, HPos::Right, VPos::Center);
-            root.draw(&Text::new(short(number), (left - px(9), y), style))?;
+            root.draw(&Text::new(self.y.label(number), (left - px(9), y), style))?;
         }
         line((left, bottom), (right, bottom), 1.0)?;
         line((left, top), (left, bottom), 1.0)?;
         let name = words(14, &BLACK, HPos::Center, VPos::Top);
         let middle = ((left + right) / 2, bottom + px(32));
-        root.draw(&Text::new(self.x_name.clone(), middle, name.clone()))?;
+        root.draw(&Text::new(self.x.named(&self.x_name), middle, name.clone()))?;
         let upward = name.transform(FontTransform::Rotate270);
         let beside = (px(8), (top + bottom) / 2);
-        root.draw(&Text::new(self.y_name.clone(), beside, upward))
+        root.draw(&Text::new(self.y.named(&self.y_name), beside, upward))
     }
 }
 
@@ -143,9 +143,9 @@ pub(super) fn colour_scale<'a>(root: &Area<'a>, colours: &Colours) -> Drawn<'a> 
         let tick = vec![(left + px(16), y), (left + px(20), y)];
         root.draw(&PathElement::new(tick, style))?;
         let style = words(13, &BLACK, HPos::Left, VPos::Center);
-        root.draw(&Text::new(short(number), (left + px(24), y), style))?;
+        root.draw(&Text::new(scale.label(number), (left + px(24), y), style))?;
     }
     let upward = words(14, &BLACK, HPos::Center, VPos::Top).transform(FontTransform::Rotate270);
     let beside = (left + px(84), (top + bottom) / 2);
-    root.draw(&Text::new(name.clone(), beside, upward))
+    root.draw(&Text::new(scale.named(name), beside, upward))
 }

@@ -1,6 +1,7 @@
 //! From numbers to places on an axis, and the round numbers that are written beside it.
 
 use crate::number::without_zeros;
+use crate::report::plot::Axis as Plain;
 use crate::sweep::Axis;
 
 /// An axis of a picture.
@@ -62,12 +63,34 @@ impl Scale {
         }
     }
 
-    /// Round numbers on the axis, some six of them.
-    pub(super) fn ticks(&self) -> Vec<f64> {
-        let decades = match self.logarithmic {
+    /// A number of the axis as it is written beside it: of an axis over whole decades in full.
+    pub(super) fn label(&self, number: f64) -> String {
+        let plain = Plain::between(self.from, self.to);
+        match self.decades() < 1.0 {
+            true => plain.label(plain.at(number)),
+            false => short(number),
+        }
+    }
+
+    /// A name, with what the numbers of the axis are counted from, if it is not zero.
+    pub(super) fn named(&self, name: &str) -> String {
+        match Plain::between(self.from, self.to).origin() {
+            Some(origin) => format!("{name}, {origin}"),
+            None => name.to_owned(),
+        }
+    }
+
+    /// How many powers of ten it spans, if equal ratios are equally far apart.
+    fn decades(&self) -> f64 {
+        match self.logarithmic {
             true => (self.to / self.from).log10(),
             false => 0.0,
-        };
+        }
+    }
+
+    /// Round numbers on the axis, some six of them.
+    pub(super) fn ticks(&self) -> Vec<f64> {
+        let decades = self.decades();
         if decades < 1.0 {
             return self.even_ticks();
         }
@@ -101,7 +124,7 @@ impl Scale {
 }
 
 /// A number of an axis, without digits that say nothing.
-pub(super) fn short(value: f64) -> String {
+fn short(value: f64) -> String {
     let text = format!("{value:.3e}");
     let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
     match power.parse::<i32>() {
@@ -115,12 +138,14 @@ pub(super) fn short(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Scale, short};
+    use super::Scale;
 
     #[test]
     fn ticks_are_round() {
-        let ticks =
-            |scale: Scale| -> Vec<String> { scale.ticks().into_iter().map(short).collect() };
+        let ticks = |scale: Scale| -> Vec<String> {
+            let ticks = scale.ticks().into_iter();
+            ticks.map(|number| scale.label(number)).collect()
+        };
         let of = |axis: &str| Scale::of(&axis.parse().expect("an axis"), 0.0);
         assert_eq!(ticks(of("a=0.3..1:8")), ["0.4", "0.6", "0.8", "1"]);
         assert_eq!(
@@ -138,5 +163,11 @@ mod tests {
             ["0.6", "0.8", "1", "1.2", "1.4"]
         );
         assert_eq!(of("a=1..100:8:log").part(10.0), 0.5);
+        let close = ["3.001", "3.0012", "3.0014", "3.0016", "3.0018", "3.002"];
+        assert_eq!(ticks(of("a=3.001..3.002:9")), close);
+        let closer = of("a=7.00000095..7.00000145:9");
+        assert_eq!(closer.named("a"), "a, from 7.000001");
+        assert_eq!(ticks(closer), ["0", "1e-7", "2e-7", "3e-7", "4e-7"]);
+        assert_eq!(of("a=0..1:8").named("a"), "a");
     }
 }
