@@ -249,7 +249,7 @@ fn modes_of_the_run_are_written_out() {
     let wheel = catalogue::all().find("mass-on-wheel").expect("a scene");
     let page = page(wheel);
     for part in [
-        "<h4>rim closed, grip sticks</h4>\n<p>From 0 s to 2.46176 s.</p>",
+        "<h4>rim closed, grip sticks</h4>\n<p>From 0.000000 s to 2.461759 s.</p>",
         "<h4>rim closed, grip slips forward</h4>",
         "<h4>rim open</h4>",
         "static friction of grip suffices</th>",
