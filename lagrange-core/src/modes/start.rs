@@ -191,7 +191,7 @@ pub fn consistent<T: Scalar>(
     let t = T::from_f64(time);
     let mut status = ConstraintStatus::new(d);
     status.look(dynamics, t, reference, tolerance);
-    let mut mode = status.mode.clone();
+    let mut mode = status.mode;
     for (f, friction) in mode.frictions.iter_mut().enumerate() {
         // A slip may be zero for an instant, as that of a slider at its dead centre.
         if begun.is_some_and(|begun| begun.frictions[f] != FrictionMode::Stick) {
@@ -212,10 +212,7 @@ pub fn consistent<T: Scalar>(
         }
         outcome => outcome,
     };
-    let state = outcome.map_err(|e| Error::from_evaluation(e, time, &mode, d))?;
-    status.look(dynamics, t, &state, tolerance);
-    status.refuse_penetration(d, tolerance.strictness())?;
-    Ok(state)
+    outcome.map_err(|e| Error::from_evaluation(e, time, &mode, d))
 }
 
 /// A projection that leaves some numbers of a state as they are.

@@ -249,7 +249,7 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
     /// that what is fixed lifts or moves.
     ///
     /// # Errors
-    /// [`Error::Projection`] if there is none, with the row that cannot be satisfied, and [`Error::Penetrates`] if it is below a contact; [`Error::Dimension`] if `reference`
+    /// [`Error::Projection`] if there is none, with the row that cannot be satisfied; [`Error::Dimension`] if `reference`
     /// belongs to another system, [`Error::Argument`] if `fixed` does, and [`Error::Domain`] for what is not finite.
     pub fn consistent(
         &self,

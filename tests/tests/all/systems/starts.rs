@@ -217,24 +217,6 @@ fn a_place_that_two_contacts_do_not_allow_opens_one() {
     agree("height", found.q[1], 0.4, 1e-12);
 }
 
-/// A middle that is behind the wall by more than half the length leaves no way.
-#[test]
-fn a_state_below_a_contact_is_no_consistent_one() {
-    let scene = Ladder {
-        mass: 3.0,
-        length: 1.0,
-        gravity: 9.81,
-    };
-    let simulation = Simulation::new(&scene);
-    let behind = FixedComponents::default().q(Ladder::X, -0.7);
-    let refused = simulation.consistent(0.0, scene.at(Ladder::LEANS), &behind);
-    let Err(Error::Penetrates { item, gap, .. }) = refused else {
-        panic!("{refused:?}");
-    };
-    assert_eq!(item, "wall");
-    agree("gap", gap, -0.7 - 0.5 * 1.2_f64.cos(), 1e-12);
-}
-
 /// A mass in a slot, pushed to and fro.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
