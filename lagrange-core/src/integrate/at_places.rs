@@ -1,8 +1,18 @@
 //! Polynomials at several places at once, as quadratures and looks between the ends of a step ask for them.
 
-use super::polynomial::ORDERS;
 use crate::arithmetic::quad::{Quad, QuadBody, side_by_side};
 use crate::arithmetic::{Pack, Scalar};
+
+/// k as a number.
+pub(crate) const ORDERS: [f64; 64] = {
+    let mut table = [0.0; 64];
+    let mut k = 1;
+    while k < 64 {
+        table[k] = k as f64;
+        k += 1;
+    }
+    table
+};
 
 /// How many places there are.
 pub(crate) const PLACES: usize = 8;

@@ -1,6 +1,6 @@
 //! Positions and velocities over one step, as polynomials in s = (t − t₀)/h.
 
-use super::at_places::{AtPlaces, derivative_at, horner_at};
+use super::at_places::{AtPlaces, ORDERS, derivative_at, horner_at};
 use crate::arithmetic::products::Row;
 use crate::arithmetic::quad::{Quad, values};
 use crate::arithmetic::{Pack, Scalar};
@@ -272,17 +272,6 @@ pub(crate) fn powers_of<Q: Quad>(quad: Q, h: f64, degree: usize, powers: &mut Ro
         four = quad.lesser(quad.product(four, factor), quad.splat(f64::MAX));
     }
 }
-
-/// k as a number.
-pub(crate) const ORDERS: [f64; 64] = {
-    let mut table = [0.0; 64];
-    let mut k = 1;
-    while k < 64 {
-        table[k] = k as f64;
-        k += 1;
-    }
-    table
-};
 
 /// Σ cₖ sᵏ; the small terms are added first, so that at s = 1 the sum is accurate to rounding for series that decay.
 pub(crate) fn horner<T: Scalar>(c: &[T], s: T) -> T {

@@ -10,7 +10,7 @@
 //! read, and each predicts the last term by the decay that the others show. Independently of all coefficients,
 //! [`defect`] compares the series' acceleration at the end with a fresh evaluation.
 
-use super::polynomial::ORDERS;
+use super::at_places::ORDERS;
 use super::{StepPolynomial, Tolerance};
 use crate::arithmetic::products::Row;
 use crate::arithmetic::quad::{Quad, QuadBody, side_by_side, values};
