@@ -459,6 +459,20 @@ fn a_ball_that_is_squeezed_comes_to_rest_or_is_an_error() {
     assert!(matches!(turns.solve(&c, &mut law), Err(Stuck::Endless(_))));
 }
 
+/// Coulomb friction with one coefficient on a contact, whose slip is in this row.
+fn rub(contact: usize, row: usize, mu: f64) -> FrictionRow<f64> {
+    FrictionRow {
+        friction: contact,
+        row,
+        components: 1,
+        bearer: NormalSource::ContactRow(contact),
+        while_touch: None,
+        factor: 1.0,
+        stick: mu,
+        slide: mu,
+    }
+}
+
 /// A rod of mass 1 whose foot rests on a rough floor (first contact) and whose other end strikes a rough wall, in the plane.
 /// Rows: normals, then slips.
 fn wedged_rod(random: &mut Random, poisson: bool) -> Collision<f64> {
@@ -499,16 +513,7 @@ fn wedged_rod(random: &mut Random, poisson: bool) -> Collision<f64> {
             restitution: if poisson { 0.5 } else { 0.0 },
             poisson,
         });
-        c.rubs.push(FrictionRow {
-            friction: k,
-            row: 2 + k,
-            components: 1,
-            bearer: NormalSource::ContactRow(k),
-            while_touch: None,
-            factor: 1.0,
-            stick: mu,
-            slide: mu,
-        });
+        c.rubs.push(rub(k, 2 + k, mu));
     }
     c
 }
@@ -589,16 +594,7 @@ fn row_of_levers(
             restitution: e,
             poisson: false,
         });
-        c.rubs.push(FrictionRow {
-            friction: k,
-            row: contacts + k,
-            components: 1,
-            bearer: NormalSource::ContactRow(k),
-            while_touch: None,
-            factor: 1.0,
-            stick: mu,
-            slide: mu,
-        });
+        c.rubs.push(rub(k, contacts + k, mu));
     }
     for a in &rows {
         let sizes = a.iter().enumerate().map(|(k, a)| a.abs() * place(k));
