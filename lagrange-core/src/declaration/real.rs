@@ -20,9 +20,9 @@ pub trait Real: Copy + Default + Add<Output = Self> + Mul<Output = Self> {
     /// xᵖ
     fn raised(self, p: f64) -> Self;
 
-    /// xᵖ, xᵖ⁻¹, xᵖ⁻² and xᵖ⁻³.
+    /// xᵖ, xᵖ⁻¹, xᵖ⁻² and xᵖ⁻³; 0 for those beyond x⁰, which no derivative of a whole power has.
     fn powers(self, p: f64) -> [Self; 4] {
-        [0.0, 1.0, 2.0, 3.0].map(|k| self.raised(p - k))
+        each_power(self, p)
     }
 
     /// The angle of (x, `self`).
@@ -59,6 +59,14 @@ pub trait Real: Copy + Default + Add<Output = Self> + Mul<Output = Self> {
     fn ln(self) -> Self;
 }
 
+/// [`Real::powers`], each by itself.
+fn each_power<N: Real>(x: N, p: f64) -> [N; 4] {
+    [0.0, 1.0, 2.0, 3.0].map(|k| match p == p.trunc() && (0.0..k).contains(&p) {
+        true => N::default(),
+        false => x.raised(p - k),
+    })
+}
+
 impl Real for f64 {
     const ANYTHING: Self = f64::NAN;
 
@@ -88,7 +96,7 @@ impl Real for f64 {
         // One of them makes the others where none that is finite needs more than the range of numbers on the way.
         let in_range = (1e-60..1e60).contains(&self) && p.abs() < 4.0;
         if p == p.trunc() || !in_range {
-            return [0.0, 1.0, 2.0, 3.0].map(|k| self.raised(p - k));
+            return each_power(self, p);
         }
         let (power, inverse) = (self.powf(p), self.recip());
         let (once, twice) = (power * inverse, inverse * inverse);
@@ -193,7 +201,7 @@ impl<const L: usize> Real for Pack<f64, L> {
 
     fn powers(self, p: f64) -> [Self; 4] {
         if p == p.trunc() {
-            return [0.0, 1.0, 2.0, 3.0].map(|k| self.raised(p - k));
+            return each_power(self, p);
         }
         let powers = self.0.map(|x| x.powers(p));
         core::array::from_fn(|k| Self(powers.map(|powers| powers[k])))

@@ -239,9 +239,30 @@ impl Hidden {
             let base = start.value(root.base).abs();
             root.near = root.kind != Kind::Place || most(root.base) >= FAR * base;
         }
-        let borders = self.arguments.iter().any(|a| a.border.is_some());
-        let near = self.roots.iter().any(|root| root.near);
-        if !borders && !near && self.angles.is_empty() {
+        if self.is_clear() {
+            return end;
+        }
+        let places = core::array::from_fn(|n| (n + 1) as f64 * piece);
+        step.at_places(Pack(places), &mut self.pieces);
+        let pieces = &self.pieces.evaluator;
+        let at = |n: usize, value: usize| -> Ends {
+            let [x, rate] = [pieces.value(value), pieces.rate(value)].map(|x| x.0[n - 1]);
+            [x, change * rate]
+        };
+        // Between two ends of a piece a curve stays among these and what its tangents there come to within the piece.
+        let course = |before: Ends, value: usize| {
+            core::iter::once(before).chain((1..=PLACES).map(move |n| at(n, value)))
+        };
+        for argument in &mut self.arguments {
+            if argument.keeps_away(course(argument.before, argument.value)) {
+                argument.border = None;
+            }
+        }
+        for root in self.roots.iter_mut().filter(|root| root.near) {
+            let mut course = course(ends(root.base), root.base);
+            root.near = root.kind == Kind::Arc || !course.all(|[x, dx]| x - dx.abs() > 0.0);
+        }
+        if self.is_clear() {
             return end;
         }
         for angle in &mut self.angles {
@@ -252,14 +273,8 @@ impl Hidden {
             root.before = root.ends(ends(root.base));
             root.corner = None;
         }
-        let places = core::array::from_fn(|n| (n + 1) as f64 * piece);
-        step.at_places(Pack(places), &mut self.pieces);
-        let pieces = &self.pieces.evaluator;
         for n in 1..=PLACES {
-            let ends = |value: usize| -> Ends {
-                let [x, rate] = [pieces.value(value), pieces.rate(value)].map(|x| x.0[n - 1]);
-                [x, change * rate]
-            };
+            let ends = |value: usize| at(n, value);
             for argument in &mut self.arguments {
                 let after = ends(argument.value);
                 let before = core::mem::replace(&mut argument.before, after);
@@ -298,6 +313,13 @@ impl Hidden {
         let back = self.angles.iter().filter(|angle| angle.jumps == 0.0);
         let beyond = back.filter_map(|angle| angle.beyond);
         beyond.fold(end, f64::min)
+    }
+
+    /// Whether nothing is left that the step may hide.
+    fn is_clear(&self) -> bool {
+        let borders = self.arguments.iter().any(|a| a.border.is_some());
+        let near = self.roots.iter().any(|root| root.near);
+        !borders && !near && self.angles.is_empty()
     }
 }
 
@@ -352,6 +374,16 @@ impl Argument {
                 }
             }
         };
+    }
+
+    /// Whether it does not come to its border, by its values where pieces end and its changes over them.
+    fn keeps_away(&self, mut course: impl Iterator<Item = Ends>) -> bool {
+        let side = self.before[0].signum();
+        match self.border {
+            None => true,
+            Some(Border::Least(least)) => course.all(|[x, dx]| side * x - dx.abs() >= least),
+            Some(Border::Most(most)) => course.all(|[x, dx]| x.abs() + dx.abs() <= most),
+        }
     }
 
     /// Whether it goes where it must not in a piece with these ends.
