@@ -1,12 +1,16 @@
 //! What of a run can be drawn, by name: `t`, a coordinate `theta`, its rate `der(theta)`, a force, `|grip|`, what a friction can
 //! hold `limit(grip)`, an output, `kinetic`, `potential`, `energy`.
 
-use crate::names::{is_element, nearest};
+use crate::names::is_element;
 use crate::notation::{is_angle, rate_unit, symbol, velocity_name};
 use crate::outcome::{Force, Outcome, Sample, Source, forces};
 use crate::request::Refusal;
 use lagrange_core::__private::places::Normal;
 use lagrange_core::system::{Description, Friction};
+use lagrange_engine::parse::FUNCTIONS;
+
+/// Functions of the language that take an item or a coordinate.
+const OF_ITEMS: [&str; 3] = ["gap", "slip", "momentum"];
 
 /// A number that a run has at every instant, or while something acts.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -75,12 +79,10 @@ impl Quantity {
         let all = Self::all(d);
         let found = all.iter().find(|(known, _)| *known == plain);
         found.map(|(_, quantity)| quantity.clone()).ok_or_else(|| {
-            let known: Vec<&str> = all.iter().map(|(known, _)| known.as_str()).collect();
-            let is_force = d.forces.iter().any(|force| force.name == plain);
-            let is_formula = plain.contains(['(', '+', '*', '/', '^']);
-            match is_force || is_formula && nearest(&plain, &known).is_none() {
+            let known = all.iter().map(|(known, _)| known.as_str());
+            match is_expression(&plain, d) {
                 true => Refusal::NoQuantity { name: plain },
-                false => Refusal::unknown("quantity", name.trim(), known.into_iter()),
+                false => Refusal::unknown("quantity", name.trim(), known),
             }
         })
     }
@@ -197,6 +199,36 @@ impl Quantity {
         }
         all
     }
+}
+
+/// Whether a declaration may say so in an `observe`: all words of it are names there, or functions where they are called.
+fn is_expression(plain: &str, d: &Description) -> bool {
+    let names = || {
+        let coordinates = d.coordinates.iter().map(|coordinate| coordinate.name);
+        let parameters = d.parameters.iter().map(|parameter| parameter.name);
+        let items = d.contacts.iter().map(|contact| contact.name);
+        let items = items.chain(d.constraints.iter().map(|constraint| constraint.name));
+        let items = items.chain(d.frictions.iter().map(|friction| friction.name));
+        let items = items.chain(d.forces.iter().map(|force| force.name));
+        let outputs = d.observes.iter().map(|output| output.name);
+        coordinates.chain(parameters).chain(items).chain(outputs)
+    };
+    let is_of_word = |c: char| c.is_alphanumeric() || c == '_';
+    let mut rest = plain;
+    while let Some(begin) = rest.find(is_of_word) {
+        let word = &rest[begin..];
+        let (word, after) = word.split_at(word.find(|c| !is_of_word(c)).unwrap_or(word.len()));
+        let is_number = word.starts_with(|c: char| c.is_ascii_digit());
+        let is_known = match after.starts_with('(') {
+            true => FUNCTIONS.contains(&word) || OF_ITEMS.contains(&word),
+            false => word == "pi" || names().any(|name| name == word || is_element(name, word)),
+        };
+        if !(is_number || is_known) {
+            return false;
+        }
+        rest = after;
+    }
+    syn::parse_str::<syn::Expr>(plain).is_ok()
 }
 
 /// A name without blanks.

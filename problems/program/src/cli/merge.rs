@@ -30,6 +30,6 @@ impl Merge {
         ready(self.results.files(), &[])?;
         let (sweep, journal) =
             Journal::gather(&self.folders, catalogue).map_err(Trouble::failed)?;
-        verdict(&self.results.write(&sweep, &journal)?)
+        verdict(self.results.write(&sweep, &journal)?)
     }
 }

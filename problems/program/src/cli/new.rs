@@ -83,7 +83,12 @@ impl New {
         }
         ready(Some(Path::new(&shown)), &[])?;
         to_file(Path::new(&shown), |out| out.write_all(TEMPLATE.as_bytes()))?;
-        let command = shell::command(["run".to_owned(), shown.clone()]);
+        // A name with a dash in front would be an option.
+        let file = match shown.starts_with('-') {
+            true => format!("./{shown}"),
+            false => shown.clone(),
+        };
+        let command = shell::command(["run".to_owned(), file]);
         super::print(|out| writeln!(out, "{shown} is written; run it: {command}"))
     }
 }
@@ -120,7 +125,7 @@ fn in_rust(folder: &Path, package: &str) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// A name that cargo takes.
+/// A name that cargo takes beside those of the crates that it stands on.
 fn package(name: &str) -> String {
     let plain = |c: char| {
         if c.is_ascii_alphanumeric() {
@@ -130,7 +135,7 @@ fn package(name: &str) -> String {
         }
     };
     let name: String = name.chars().map(plain).collect();
-    match name.starts_with(|c: char| c.is_ascii_alphabetic()) {
+    match name.starts_with(|c: char| c.is_ascii_alphabetic()) && !name.starts_with("lagrange-") {
         true => name,
         false => format!("crate-{name}"),
     }

@@ -56,31 +56,39 @@ impl Results {
         }
     }
 
-    /// Writes and prints them.
-    pub(super) fn write(&self, sweep: &Sweep, journal: &Journal) -> Result<Summary, Trouble> {
+    /// Writes and prints them. What is to be said against them when all is written: every run failed, or none has what is to be drawn. Other runs that failed are
+    /// part of the results.
+    pub(super) fn write(
+        &self,
+        sweep: &Sweep,
+        journal: &Journal,
+    ) -> Result<Option<&'static str>, Trouble> {
         let summary = Summary::new(sweep, journal).map_err(Trouble::failed)?;
         if let Some(path) = &self.output {
             lines(path, sweep, journal)?;
         }
+        let mut complaint = (summary.failures() == summary.runs).then_some("every run failed");
         if let Some(path) = &self.plot {
-            let picture = report::svg(sweep, journal).map_err(Trouble::failed)?;
-            draw(path, &picture)?;
+            match report::svg(sweep, journal).map_err(Trouble::failed)? {
+                Some(picture) => draw(path, &picture)?,
+                None => {
+                    complaint
+                        .get_or_insert("there is nothing to draw: no run has what was observed");
+                }
+            }
         }
         super::print(|out| match self.format {
             Format::Table => report::table(sweep, &summary, out),
             Format::Json => report::json(sweep, &summary, out),
             Format::Csv => report::csv(sweep, journal, out).map_err(Error::other),
         })?;
-        Ok(summary)
+        Ok(complaint)
     }
 }
 
-/// A sweep went well if a run did. Runs that failed are part of its results.
-pub(super) fn verdict(summary: &Summary) -> Result<(), Trouble> {
-    match summary.failures() == summary.runs {
-        true => Err(Trouble::failed("every run failed")),
-        false => Ok(()),
-    }
+/// Ends with what is said against the results, if there is something.
+pub(super) fn verdict(complaint: Option<&'static str>) -> Result<(), Trouble> {
+    complaint.map_or(Ok(()), |words| Err(Trouble::failed(words)))
 }
 
 /// The name of a file with something added.

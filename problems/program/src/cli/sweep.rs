@@ -166,9 +166,9 @@ impl Sweeps {
 
     /// What is made of all runs.
     fn finish(&self, sweep: &Sweep, journal: Journal) -> Result<(), Trouble> {
-        let summary = self.results.write(sweep, &journal)?;
+        let complaint = self.results.write(sweep, &journal)?;
         journal.remove().map_err(Trouble::failed)?;
-        verdict(&summary)
+        verdict(complaint)
     }
 
     /// How far it is.

@@ -26,7 +26,11 @@ fn wrong<T>(value: &Value, expected: &str) -> Result<T, Wrong> {
 pub(super) fn number(value: &Value) -> Result<f64, Wrong> {
     let digits = |text: &str| text.replace('_', "");
     let found = match value.get_ref() {
-        DeValue::Integer(number) if number.radix() == 10 => digits(number.as_str()).parse().ok(),
+        DeValue::Integer(number) if number.radix() != 10 => {
+            let reason = "numbers are written in decimal digits".to_owned();
+            return Err((value.span().start, reason));
+        }
+        DeValue::Integer(number) => digits(number.as_str()).parse().ok(),
         DeValue::Float(number) => digits(number.as_str()).parse().ok(),
         DeValue::String(text) if text.trim().parse::<f64>().is_ok() => {
             return wrong(value, "a number, without quotes,");

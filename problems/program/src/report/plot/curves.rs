@@ -370,6 +370,13 @@ mod tests {
         assert!(said("limit(grib)").contains("did you mean `limit(grip)`?"));
         assert!(said("theta,").contains("no quantity is called ``"));
         assert!(said("der(der(r)) + 1").contains("`observe(u = der(der(r))+1)`"));
+        assert!(said("slip(grip)").contains("`observe(u = slip(grip))`"));
+        for unknown in ["force(rim)", "limit(rim)", "dr/dt", "r +", "theta(2)"] {
+            assert!(
+                said(unknown).starts_with("no quantity is called `"),
+                "{unknown}"
+            );
+        }
     }
 
     #[test]

@@ -50,11 +50,11 @@ pub fn drawable(sweep: &Sweep) -> Result<(), &'static str> {
     }
 }
 
-/// The picture, as the text of an SVG file: all observations over one axis, the first one over two or more.
+/// The picture, as the text of an SVG file: all observations over one axis, the first one over two or more. None if no run has what was observed.
 ///
 /// # Errors
-/// The journal is not complete; no run has what was observed.
-pub fn svg(sweep: &Sweep, journal: &Journal) -> Result<String, Failure> {
+/// The journal is not complete.
+pub fn svg(sweep: &Sweep, journal: &Journal) -> Result<Option<String>, Failure> {
     let one = sweep.points.axes.len() == 1;
     drawable(sweep).map_err(|words| reason(words.to_owned()))?;
     let picture = match (sweep.points.sampling, one) {
@@ -63,15 +63,15 @@ pub fn svg(sweep: &Sweep, journal: &Journal) -> Result<String, Failure> {
         (Sampling::Sample { .. }, true) => dots::over_one(sweep, journal)?,
         (Sampling::Sample { .. }, false) => dots::over_two(sweep, journal)?,
     };
-    let picture = picture.ok_or_else(|| {
-        reason("there is nothing to draw: no run has what was observed".to_owned())
-    })?;
+    let Some(picture) = picture else {
+        return Ok(None);
+    };
     let mut text = draw_in(picture.height, |root| draw(root, &picture)).map_err(reason)?;
     // What is drawn first is the background; marks come before axes and words.
     if let Some(place) = text.find("/>") {
         text.insert_str(place + 2, &picture.marks.svg());
     }
-    Ok(text)
+    Ok(Some(text))
 }
 
 fn reason(text: String) -> Failure {
