@@ -51,6 +51,16 @@ pub enum Direction {
     Incipient([f64; 2]),
 }
 
+impl Direction {
+    /// That of a slip under way with these components.
+    pub(crate) fn of_slip(mut components: impl Iterator<Item = f64>) -> Self {
+        match (components.next(), components.next()) {
+            (Some(rate), None) => Self::Fixed([rate.signum(), 0.0]),
+            _ => Self::AlongSlip,
+        }
+    }
+}
+
 impl Sliding {
     /// Slip with two components along itself, on a contact.
     pub fn along_slip() -> Self {

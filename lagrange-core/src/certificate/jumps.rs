@@ -113,7 +113,7 @@ impl Energies {
             self.parts = PARTS;
             let negligible = findings.tolerance * size + rounding;
             let (jump, s) = self.jump(energy, step, [0.0, step.end], [first, last], negligible);
-            let time = step.time + step.length * s;
+            let time = step.motion.time(s);
             let jump = beyond(jump, rounding);
             findings.book(Subject::Jumps, jump, size, time, self.d.name);
         }
@@ -155,13 +155,13 @@ impl Energies {
     ) -> (f64, f64) {
         let [places, weights] = self.nodes;
         let places = places.0.map(|x| a + 0.5 * (b - a) * (1.0 + x));
-        step.at_places(Pack(places), &mut self.places);
+        step.motion.at_places(Pack(places), &mut self.places);
         let terms = self.terms[energy].iter();
         let rates = terms.map(|&term| self.places.evaluator.rate(term));
         let rates = rates.fold(AtPlaces::default(), |sum, rate| sum + rate);
         let gained = rates.0.into_iter().zip(weights.0);
         let gained: f64 = gained.map(|(rate, weight)| weight * rate).sum();
-        let gained = 0.5 * (b - a) * step.length * gained;
+        let gained = 0.5 * (b - a) * step.motion.h * gained;
         // The rate of a root has no value where that vanishes.
         let gained = if gained.is_finite() { gained } else { 0.0 };
         let error = (last.value - first.value - gained).abs();

@@ -12,7 +12,7 @@ use crate::checks::state::signed;
 use crate::declaration::Declaration;
 use crate::dynamics::{Dynamics, OutputMask};
 use crate::error::Error;
-use crate::integrate::{Radau, least_size};
+use crate::integrate::{Radau, StepPolynomial, least_size};
 use crate::mode::Mode;
 use crate::modes::guard::all_row_needs;
 use crate::modes::redundant::RedundantForces;
@@ -186,13 +186,13 @@ fn copy<T: Scalar>(state: &State<T>, to: &mut State<f64>) {
 /// Takes the polynomials of step `k`.
 fn take_polynomials<T: Scalar>(record: &Trajectory<T>, k: usize, step: &mut Step) {
     let segment = &record.segments[k];
-    (step.time, step.length) = (segment.t.value(), segment.h.value());
-    (step.end, step.width) = (segment.end.value(), segment.degree + 1);
-    let n = record.start.q.len();
-    let numbers = &record.coefficients[segment.offset..][..2 * n * step.width];
-    step.coefficients.clear();
-    let numbers = numbers.iter().map(|x| x.value());
-    step.coefficients.extend(numbers);
+    let Step { motion, end } = step;
+    *end = segment.end.value();
+    (motion.t, motion.h) = (segment.t.value(), segment.h.value());
+    motion.set_degree(segment.degree);
+    let coefficients = motion.q.iter_mut().chain(&mut motion.v);
+    let numbers = &record.coefficients[segment.offset..];
+    (coefficients.zip(numbers)).for_each(|(c, x)| *c = x.value());
 }
 
 impl<'a, T: Scalar> Examination<'a, T> {
@@ -237,7 +237,10 @@ impl<'a, T: Scalar> Examination<'a, T> {
             rates: record.start.clone(),
             acceleration: record.start.v.clone(),
             left: Vec::new(),
-            polynomials: Step::default(),
+            polynomials: Step {
+                motion: StepPolynomial::new(start.q.len(), 0),
+                end: 0.0,
+            },
             begin: start.clone(),
             last: start.clone(),
             errors: start.clone(),

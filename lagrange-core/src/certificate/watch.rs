@@ -166,7 +166,7 @@ impl Watches {
         self.parts = PARTS;
         self.look(step, 0.0, mode, findings);
         // What jumps at the end is false just before it.
-        let blur = ROUNDING_OF_TIME * (step.time + step.length * step.end).abs() / step.length;
+        let blur = ROUNDING_OF_TIME * step.motion.time(step.end).abs() / step.motion.h;
         let before = (step.end - blur).max(0.0);
         self.between(step, [0.0, before], mode, findings);
         self.look(step, step.end, mode, findings);
@@ -196,21 +196,20 @@ impl Watches {
         mode: &Mode,
         findings: &Findings,
     ) -> bool {
-        let h = step.length;
+        let motion = &step.motion;
+        let (h, time) = (motion.h, motion.t);
         let [q, v, acceleration] = &mut self.between;
-        for (x, c) in q.iter_mut().zip(step.polynomials(0)) {
-            *x = range(c.iter().copied(), [a, b]);
-        }
-        for (x, c) in v.iter_mut().zip(step.polynomials(1)) {
-            *x = range(c.iter().copied(), [a, b]);
+        let n = q.len();
+        for i in 0..n {
+            q[i] = range(motion.position_row(i).iter().copied(), [a, b]);
+            v[i] = range(motion.velocity_row(i).iter().copied(), [a, b]);
         }
         if self.ranges.needs_accelerations() {
-            for (x, c) in acceleration.iter_mut().zip(step.polynomials(1)) {
-                let rates = c.iter().enumerate().skip(1).map(|(k, c)| k as f64 * c / h);
-                *x = range(rates, [a, b]);
+            for (i, x) in acceleration.iter_mut().enumerate() {
+                let rates = motion.velocity_row(i).iter().enumerate().skip(1);
+                *x = range(rates.map(|(k, c)| k as f64 * c / h), [a, b]);
             }
         }
-        let (n, time) = (q.len(), step.time);
         self.ranges.evaluate(Inputs {
             time: Interval::new(time + h * a, time + h * b),
             q,
@@ -253,7 +252,7 @@ impl Watches {
     fn look(&mut self, step: &Step, s: f64, mode: &Mode, findings: &mut Findings) {
         let mut state = core::mem::take(&mut self.state);
         step.state(s, &mut state.q, &mut state.v);
-        let at = Situation::of_state(step.time + step.length * s, &state);
+        let at = Situation::of_state(step.motion.time(s), &state);
         self.see(at, mode, false, findings);
         self.state = state;
     }

@@ -234,13 +234,7 @@ impl<N: Real> Evaluator<N> {
             op::ADD => n(i) + n(j),
             op::MULTIPLY => n(i) * n(j),
             op::DERIVATIVE => n(i).derivative(),
-            op::SELECT => {
-                let guard = match self.taken[operation.guard] {
-                    Some(ordering) => N::number(f64::from(ordering as i8)),
-                    None => n(operation.guard).0[0],
-                };
-                Series(guard.choose(n(i).0, n(j).0))
-            }
+            op::SELECT => Series(self.guard(operation).choose(n(i).0, n(j).0)),
             op::ATAN2 => {
                 let (value, slopes) = n(i).atan2(n(j));
                 self.slopes[at] = slopes;
@@ -258,6 +252,15 @@ impl<N: Real> Evaluator<N> {
                 value
             }
         };
+    }
+
+    /// What a choice compares with zero.
+    #[inline]
+    fn guard(&self, choice: Operation) -> N {
+        match self.taken[choice.guard] {
+            Some(ordering) => N::number(f64::from(ordering as i8)),
+            None => self.value(choice.guard),
+        }
     }
 
     /// A value at the state.
@@ -306,11 +309,7 @@ impl Evaluator {
                 by(j, &self.values[i]);
             }
             op::SELECT => {
-                let guard = operation.guard;
-                let first = match self.taken[guard] {
-                    Some(ordering) => ordering.is_ge(),
-                    None => self.value(guard) >= 0.0,
-                };
+                let first = self.guard(operation) >= 0.0;
                 by(if first { i } else { j }, &ONE);
             }
             op::TIME | op::FORCE | op::LOAD => {}

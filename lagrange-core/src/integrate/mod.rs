@@ -25,7 +25,7 @@ mod verner98;
 use crate::shortest::Shortest;
 use core::fmt;
 
-pub(crate) use at_places::{AtPlaces, PLACES, derivative_at, horner_at};
+pub(crate) use at_places::{AtPlaces, PLACES};
 pub use control::Tolerance;
 pub(crate) use control::least_size;
 pub(crate) use gauss::Gauss;

@@ -95,7 +95,7 @@ impl<T: Scalar> StepPolynomial<T> {
     }
 
     /// Coefficients of the position of coordinate `i`.
-    fn position_row(&self, i: usize) -> &[T] {
+    pub(crate) fn position_row(&self, i: usize) -> &[T] {
         &self.q[i * (self.degree + 1)..][..self.degree + 1]
     }
 

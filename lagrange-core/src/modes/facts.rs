@@ -10,7 +10,7 @@ use crate::system::Description;
 const RESIDUES: f64 = 16.0;
 
 /// What is known exactly at the instant.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct SwitchFacts {
     /// Per contact: gap and gap rate vanish, so that it may be closed or open.
     pub touching: Vec<bool>,
@@ -41,6 +41,29 @@ pub struct SwitchFacts {
     /// How long the present mode has lasted, or as far as its last step could have gone, s: the time to whose errors an instant is located. Infinite where
     /// there has been none.
     pub lasted: f64,
+}
+
+impl Clone for SwitchFacts {
+    fn clone(&self) -> Self {
+        let mut facts = Self::default();
+        facts.clone_from(self);
+        facts
+    }
+
+    // A run goes on from an impact without allocating.
+    fn clone_from(&mut self, source: &Self) {
+        self.touching.clone_from(&source.touching);
+        self.arriving.clone_from(&source.arriving);
+        self.parting.clone_from(&source.parting);
+        self.resting.clone_from(&source.resting);
+        self.balanced.clone_from(&source.balanced);
+        self.lying.clone_from(&source.lying);
+        self.held.clone_from(&source.held);
+        self.located.clone_from(&source.located);
+        self.touched.clone_from(&source.touched);
+        (self.jumped, self.lost, self.again) = (source.jumped, source.lost, source.again);
+        (self.residue, self.lasted) = (source.residue, source.lasted);
+    }
 }
 
 impl SwitchFacts {

@@ -5,7 +5,7 @@ use crate::dynamics::{Dynamics, OutputMask};
 use crate::effects::Item;
 use crate::error::{Error, Level};
 use crate::integrate::{Tolerance, least_size};
-use crate::mode::{FrictionMode, Mode, Sliding};
+use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::modes::facts::SwitchFacts;
 use crate::modes::guard;
 use crate::state::State;
@@ -69,7 +69,10 @@ impl ConstraintStatus {
         let Self {
             mode, facts, needs, ..
         } = self;
-        branches(dynamics, t, state, needs, mode, facts);
+        take_sides(dynamics, t, state, needs, mode, |b, guard| {
+            facts.balanced[b] = guard == 0.0;
+            Some(guard >= 0.0)
+        });
         let view = View {
             dynamics,
             state,
@@ -179,9 +182,9 @@ impl ConstraintStatus {
             self.mode.frictions[f] = FrictionMode::Stick;
             return;
         }
-        self.mode.frictions[f] = FrictionMode::Slip(match friction.components {
-            1 => Sliding::sign(slip(friction.row).signum()),
-            _ => Sliding::along_slip(),
+        self.mode.frictions[f] = FrictionMode::Slip(Sliding {
+            direction: Direction::of_slip(rows.map(slip)),
+            normal_sign: 1.0,
         });
     }
 
@@ -245,15 +248,16 @@ impl<T: Scalar> View<'_, T> {
     }
 }
 
-/// Puts every branch on its side; the guard of one may depend on the side of another.
-fn branches<T: Scalar>(
+/// Puts every branch that the motion depends on where `side` says, of its number and the value of its guard, until none moves: the guard of one may depend
+/// on the side of another. Whether any has moved; the numbers of these needs are left in `dynamics`.
+pub fn take_sides<T: Scalar>(
     dynamics: &mut Dynamics<T>,
     t: T,
     state: &State<T>,
     needs: &OutputMask,
     mode: &mut Mode,
-    facts: &mut SwitchFacts,
-) {
+    mut side: impl FnMut(usize, f64) -> Option<bool>,
+) -> bool {
     let d = dynamics.description();
     let evaluate = |dynamics: &mut Dynamics<T>, mode: &Mode| {
         dynamics.set_mode(mode);
@@ -261,24 +265,22 @@ fn branches<T: Scalar>(
         dynamics.tape(t, &state.q, &state.v);
     };
     evaluate(dynamics, mode);
+    let mut moved = false;
     for _ in 0..d.branches.len() {
         let mut changed = false;
-        for (b, branch) in d
-            .branches
-            .iter()
-            .enumerate()
-            .filter(|(_, b)| !b.after_solve)
-        {
+        let branches = d.branches.iter().enumerate();
+        for (b, branch) in branches.filter(|(_, branch)| !branch.after_solve) {
             let guard = dynamics.motion(branch.guard).value();
-            facts.balanced[b] = guard == 0.0;
-            if mode.branch(b) != (guard >= 0.0) {
-                mode.set_branch(b, guard >= 0.0);
+            if let Some(side) = side(b, guard).filter(|side| *side != mode.branch(b)) {
+                mode.set_branch(b, side);
                 changed = true;
             }
         }
         if !changed {
             break;
         }
+        moved = true;
         evaluate(dynamics, mode);
     }
+    moved
 }

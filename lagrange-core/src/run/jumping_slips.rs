@@ -126,12 +126,8 @@ fn after_jump(acts: FrictionMode, before: &Slip, after: &Slip) -> Option<Jumped>
         _ if rests => return Some(Jumped::Rests),
         _ => {}
     }
-    let direction = match after[..] {
-        [(rate, _)] => Direction::Fixed([rate.signum(), 0.0]),
-        _ => Direction::AlongSlip,
-    };
     let sliding = Sliding {
-        direction,
+        direction: Direction::of_slip(after.iter().map(|(rate, _)| *rate)),
         normal_sign,
     };
     (acts != FrictionMode::Slip(sliding)).then_some(Jumped::Slips(sliding))

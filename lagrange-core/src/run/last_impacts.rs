@@ -7,11 +7,10 @@ use super::Run;
 use crate::arithmetic::Scalar;
 use crate::effects::Item;
 use crate::error::Error;
-use crate::mode::{FrictionMode, Sliding};
+use crate::mode::FrictionMode;
 use crate::modes::facts::SwitchFacts;
 use crate::modes::guard::Guard;
 use crate::modes::impact::Impact;
-use crate::system::Normal;
 use crate::trajectory::{EventKind, State, Subject};
 
 /// A guard that has fallen to this share of itself has come to rest.
@@ -141,7 +140,7 @@ impl<T: Scalar> Run<T> {
         near.clear();
         near.extend((0..d.contacts.len()).filter(|&c| facts.touching[c]));
         if !remaining.is_zero() {
-            self.begin_flight(outcome)?;
+            self.begin_flight(outcome, facts)?;
         }
         self.fly_to_rest(&near, remaining, outcome)?;
         let rest = core::mem::take(&mut self.switcher.collider.rest);
@@ -170,39 +169,26 @@ impl<T: Scalar> Run<T> {
         Ok(())
     }
 
-    /// Begins the flight after the last impact that is followed, in which what rubs by a force of its own slips if the impact has moved it. It comes to rest
-    /// in it: the flight itself is that of what rested before.
-    fn begin_flight(&mut self, outcome: &Impact<T>) -> Result<(), Error> {
-        let d = self.description();
-        let mut closed = self.now.mode.contacts.iter().zip(&outcome.struck);
-        if closed.any(|(closed, struck)| closed & struck) {
-            return Ok(());
+    /// Begins the flight after the last impact that is followed, in the mode that is decided on as after any other.
+    fn begin_flight(&mut self, outcome: &Impact<T>, facts: &SwitchFacts) -> Result<(), Error> {
+        let mut flying = core::mem::take(&mut self.switcher.flying);
+        flying.clone_from(facts);
+        for (c, stays) in outcome.stays.iter().enumerate() {
+            // What is to end closed flies now.
+            flying.parting[c] |= flying.touching[c] && !stays;
+            flying.touching[c] &= stays;
         }
-        self.evaluate_all_rows()?;
-        for (f, friction) in d.frictions.iter().enumerate() {
-            let of_contact = friction.normal.contact(d).is_some();
-            let acts = self.now.mode.frictions[f];
-            let given = matches!(friction.normal, Normal::Given(_)) || of_contact;
-            if acts == FrictionMode::Stick && given && !self.slip_vanishes(f) {
-                let mut rows = friction.rows();
-                if let (Some(row), None) = (rows.next(), rows.next()) {
-                    let (rate, _) = self.rate(row);
-                    self.now.mode.frictions[f] = FrictionMode::Slip(Sliding::sign(rate.signum()));
-                }
-            }
-        }
-        let sides = self.now.mode.branches.clone();
-        for (b, branch) in d.branches.iter().enumerate() {
-            let guard = self.dynamics.motion(branch.guard).value();
-            if !branch.after_solve && guard != 0.0 {
-                self.now.mode.set_branch(b, guard > 0.0);
-            }
-        }
+        self.take_what_impact_leaves(&mut flying);
+        self.balance_what_is_held(&mut flying);
+        self.decide(&mut flying)?;
+        self.switcher.flying = flying;
+        let decision = &self.switcher.decider.decision;
+        self.now.mode.clone_from(&decision.mode);
+        let ambiguous = decision.ambiguous;
         self.dynamics.set_mode(&self.now.mode);
-        let evaluated = self.evaluate_all_rows();
-        self.now.mode.branches = sides;
-        evaluated?;
-        self.log_after_impacts(&outcome.impulses);
+        self.evaluate_all_rows()?;
+        self.note_conditions();
+        self.log_after_impacts(&outcome.impulses, ambiguous);
         Ok(())
     }
 
@@ -237,9 +223,7 @@ impl<T: Scalar> Run<T> {
     fn fly_off(&mut self, lasts: T, outcome: &Impact<T>) -> Result<(), Error> {
         let d = self.description();
         let mode = &mut self.switcher.scratch_mode;
-        mode.clone_from(&self.now.mode);
-        mode.frictions
-            .clone_from(&self.recorder.before.mode.frictions);
+        mode.clone_from(&self.recorder.before.mode);
         // What lies where nothing strikes goes on as it did.
         for c in (0..d.contacts.len()).filter(|&c| outcome.struck[c]) {
             mode.contacts[c] = false;

@@ -104,12 +104,12 @@ impl<T: Scalar> Run<T> {
     }
 
     /// Logs what changes with the impacts at this instant, of these impulses, where the motion goes on in a mode in which it has been evaluated.
-    pub(super) fn log_after_impacts(&mut self, impulses: &[T]) {
+    pub(super) fn log_after_impacts(&mut self, impulses: &[T], ambiguous: bool) {
         let mut forces = core::mem::take(&mut self.recorder.forces_after);
         let mut undetermined = core::mem::take(&mut self.recorder.undetermined_after);
         self.reported_forces(&mut forces, &mut undetermined);
         (self.recorder.forces_after, self.recorder.undetermined_after) = (forces, undetermined);
-        self.write_changes(impulses, false);
+        self.write_changes(impulses, ambiguous);
         self.recorder.trajectory.enter(&self.now.mode);
     }
 

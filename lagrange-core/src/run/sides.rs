@@ -13,6 +13,7 @@ use crate::modes::facts::SwitchFacts;
 use crate::modes::guard::{self, Guard, LENGTH};
 use crate::modes::held::conditions;
 use crate::modes::reading::Reading;
+use crate::modes::status::take_sides;
 
 /// What is left of a condition after an impact is rounding, beside what it was or the largest speed.
 const ROUNDING: f64 = 1e-12;
@@ -106,34 +107,26 @@ impl<T: Scalar> Run<T> {
     /// Puts branches on the sides that follow from the values of their guards at the present state, from whether the mode watches one, its number, and
     /// the value; that of one may depend on the side of another.
     fn take_sides(&mut self, mut side: impl FnMut(bool, usize, f64) -> Option<bool>) {
-        let d = self.description();
-        let mut moved = false;
-        for _ in 0..d.branches.len() {
-            self.dynamics.set_mode(&self.now.mode);
-            self.tape_of_all_rows();
-            let mut changes = false;
-            for (b, branch) in d.branches.iter().enumerate() {
-                if branch.after_solve {
-                    continue;
-                }
-                let guard = self.dynamics.motion(branch.guard).value();
-                let watched = self.switcher.watched.contains(&Guard::Branch(b));
-                if let Some(side) = side(watched, b, guard)
-                    && side != self.now.mode.branch(b)
-                {
-                    self.now.mode.set_branch(b, side);
-                    // What nothing watches is no event.
-                    if !watched {
-                        self.recorder.before.mode.set_branch(b, side);
-                    }
-                    changes = true;
-                }
+        let (now, switcher) = (&mut self.now, &self.switcher);
+        let before = &mut self.recorder.before.mode;
+        let needs = &switcher.status.needs;
+        let side = |b: usize, guard: f64| {
+            let watched = switcher.watched.contains(&Guard::Branch(b));
+            let side = side(watched, b, guard)?;
+            // What nothing watches is no event.
+            if !watched {
+                before.set_branch(b, side);
             }
-            if !changes {
-                break;
-            }
-            moved = true;
-        }
+            Some(side)
+        };
+        let moved = take_sides(
+            &mut self.dynamics,
+            now.t,
+            &now.state,
+            needs,
+            &mut now.mode,
+            side,
+        );
         if moved {
             self.recorder.trajectory.enter(&self.now.mode);
         }

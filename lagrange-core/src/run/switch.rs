@@ -46,6 +46,8 @@ pub(super) struct Switcher<T> {
     pub(super) before_holding: State<T>,
     /// Frictions whose slips may end with others.
     pub(super) ending: Vec<usize>,
+    /// What is known where a flight through impacts that accumulate begins.
+    pub(super) flying: SwitchFacts,
     /// The mode of a flight through impacts that accumulate.
     pub(super) scratch_mode: Mode,
     pub(super) decider: Decider<T>,
@@ -76,6 +78,7 @@ impl<T: Scalar> Switcher<T> {
             train: Train::default(),
             before_holding: state.clone(),
             ending: Vec::with_capacity(d.frictions.len()),
+            flying: SwitchFacts::default(),
             scratch_mode: mode.clone(),
             decider: Decider::new(d),
             table: Table::default(),
@@ -333,8 +336,7 @@ impl<T: Scalar> Run<T> {
             self.leave_regions(hit, facts);
         }
         if hit {
-            self.rest_where_impact_leaves_nothing(facts);
-            self.take_sides_after_impact(facts);
+            self.take_what_impact_leaves(facts);
         }
         // What leaves an edge may be on another surface, and where a surface bends by a branch it may come to rest where a body is.
         let of_surfaces = |guard: &Guard| matches!(guard, Guard::Region(_) | Guard::Branch(_));
@@ -351,6 +353,12 @@ impl<T: Scalar> Run<T> {
         }
         self.balance_what_is_held(facts);
         Ok(hit)
+    }
+
+    /// What is at rest after an impact, and on which sides of conditions.
+    pub(super) fn take_what_impact_leaves(&mut self, facts: &mut SwitchFacts) {
+        self.rest_where_impact_leaves_nothing(facts);
+        self.take_sides_after_impact(facts);
     }
 
     /// Whether the switch has brought rows that the state need not satisfy to rounding.

@@ -36,18 +36,22 @@ pub(crate) fn force(force: f64, held: f64) -> f64 {
 }
 
 impl Outcome {
-    /// The most that the force of a row ever holds in balance, where the row does not vanish.
-    pub(crate) fn held(&self, row: usize) -> f64 {
-        let (mut least, mut most, mut largest) = (f64::INFINITY, 0.0_f64, 0.0_f64);
+    /// Per row: the most that its force ever holds in balance, where the row does not vanish.
+    pub(crate) fn held(&self) -> Vec<f64> {
+        let mut rows = vec![(f64::INFINITY, 0.0_f64, 0.0_f64); self.description.rows.len()];
         for sample in self.all_samples() {
-            let (held, force) = (sample.held[row], sample.forces[row].abs());
-            if held > 0.0 || force > 0.0 {
-                least = least.min(held.max(force));
+            let forces = sample.held.iter().zip(&sample.forces);
+            for ((least, most, largest), (&held, force)) in rows.iter_mut().zip(forces) {
+                let force = force.abs();
+                if held > 0.0 || force > 0.0 {
+                    *least = least.min(held.max(force));
+                }
+                *most = most.max(held);
+                *largest = largest.max(force);
             }
-            most = most.max(held);
-            largest = largest.max(force);
         }
-        most.min((USUAL * least).max(largest))
+        let held = |(least, most, largest): (f64, f64, f64)| most.min((USUAL * least).max(largest));
+        rows.into_iter().map(held).collect()
     }
 
     fn all_samples(&self) -> impl Iterator<Item = &Sample> {
@@ -57,8 +61,7 @@ impl Outcome {
 
     /// Takes them out, and what frictions can hold by them.
     pub(super) fn take_out_rounding(&mut self) {
-        let rows = 0..self.description.rows.len();
-        let ever: Vec<f64> = rows.map(|row| self.held(row)).collect();
+        let ever = self.held();
         let clean = |forces: &mut [f64], held: Option<&[f64]>| {
             for (row, (x, ever)) in forces.iter_mut().zip(&ever).enumerate() {
                 *x = force(*x, held.map_or(*ever, |held| ever.max(held[row])));

@@ -835,3 +835,77 @@ fn the_forces_after_the_last_impact_are_those_of_what_it_has_moved() {
         }
     }
 }
+
+/// A ball rolls down against a sledge on a bed of clay; it turns wheels where it moves to one side, and has mud in front.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    emit = data,
+    coordinates(ball, x, y, z),
+    kinetic = light/2 * der(ball)^2 + heavy/2 * (der(x)^2 + der(y)^2 + der(z)^2) + wheels/2 * der(y)^2,
+    potential = gravity * (light * ball * sin(slope) + heavy * z),
+    force(mud: x = if(der(x) >= 0, -drag * der(x), 0)),
+    constraint(bed: z == 0),
+    contact(buffer: ball >= x * cos(angle) + y * sin(angle), restitution = bounce),
+    friction(runners on bed: slip = [der(x), der(y)], static = mu),
+    friction(clay: slip = [der(x), der(y)], limit = hold),
+)]
+struct Sledge {
+    light: f64,
+    heavy: f64,
+    wheels: f64,
+    gravity: f64,
+    slope: f64,
+    angle: f64,
+    drag: f64,
+    bounce: f64,
+    mu: f64,
+    hold: f64,
+}
+
+/// Each impact, the last one that is followed included, sets the sledge sliding along M⁻¹n, n = (cos α, sin α); all that holds it acts against that, with μ m g
+/// and with what the clay holds, and so does the mud if it slides that way.
+#[test]
+fn the_last_impact_that_is_followed_sets_a_sledge_sliding_in_the_plane() {
+    for (angle, bounce, mu, hold) in [
+        (0.4_f64, 0.6, 0.9, 8.0),
+        (2.2, 0.5, 0.6, 12.0),
+        (-1.1, 0.7, 0.2, 20.0),
+    ] {
+        let scene = Sledge {
+            light: 0.15,
+            heavy: 1.1,
+            wheels: 0.7,
+            gravity: 9.4,
+            slope: 0.35,
+            angle,
+            drag: 0.3,
+            bounce,
+            mu,
+            hold,
+        };
+        let [x, y] = [angle.cos() / 1.1, angle.sin() / 1.8];
+        let along = [x / x.hypot(y), y / x.hypot(y)];
+        for (method, tolerance) in methods_at(["taylor", "dop853"], TOLERANCES) {
+            let what = format!("{method} {tolerance:e}, {angle}");
+            let start = state(&[0.6, 0.0, 0.0, 0.0], &[0.0; 4]);
+            let run = run_by(&scene, (method, tolerance), start, 4.0);
+            certified(&what, &run);
+            let rests = event(&run, "buffer", "accumulates").time;
+            let mut impacts = 0;
+            for hit in run.events().iter().filter(|e| e.kind == EventKind::Impact) {
+                impacts += 1;
+                assert_eq!(hit.after.branch(0), x < 0.0, "{what}: through the mud");
+                let held = [(Sledge::RUNNERS, mu * 1.1 * 9.4), (Sledge::CLAY, hold)];
+                for (friction, held) in held {
+                    let force = along.map(|along| held * along);
+                    all_agree(&what, hit.friction_after(friction), &force, 1e-12);
+                }
+            }
+            assert!(impacts > 5, "{what}");
+            for grip in ["runners", "clay"] {
+                let sticks = times(&run, grip, "sticks");
+                assert_eq!(sticks.last(), Some(&rests), "{what}: {grip}");
+            }
+        }
+    }
+}

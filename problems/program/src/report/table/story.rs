@@ -169,9 +169,9 @@ fn decimals_of_forces(items: &[Force], lines: &[Line], outcome: &Outcome) -> Vec
         alike.fold(0.0, |a: f64, (_, x)| a.max(*x))
     };
     let unit = |item: &Force| outcome.description.units.row(item.row);
+    let held = outcome.held();
     let decimals = |(k, item): (usize, &Force)| {
-        let whole = outcome.held(item.row);
-        let whole = whole.max(of_all(&|other| other.source == item.source));
+        let whole = held[item.row].max(of_all(&|other| other.source == item.source));
         let beside = of_all(&|other| unit(other) == unit(item));
         let whole = match whole < f64::EPSILON * beside {
             true => beside,
