@@ -171,6 +171,11 @@ fn new_writes_what_runs() {
         text(&output.stdout),
         "x y.lagrange is written; run it: lagrange run 'x y.lagrange'\n"
     );
+    let output = lagrange_in(&folder, &["new", "--", "-x"]);
+    assert_eq!(
+        text(&output.stdout),
+        "-x.lagrange is written; run it: lagrange run ./-x.lagrange\n"
+    );
     assert_eq!(
         lagrange_in(&folder, &["run", "swing.lagrange"])
             .status
@@ -279,6 +284,17 @@ fn new_writes_a_crate() {
         let text = fs::read_to_string(path.join("Cargo.toml")).expect("a crate");
         assert!(text.contains(&format!("name = \"{name}\"")), "{name}");
     }
+}
+
+/// Cargo cannot tell two packages of one name in folders apart.
+#[test]
+fn a_new_crate_has_a_name_of_its_own() {
+    let folder = folder("declaration-crate-name");
+    lagrange_in(&folder, &["new", "--crate", "lagrange-core"]);
+    let cargo = fs::read_to_string(folder.join("lagrange-core/Cargo.toml")).expect("it");
+    let cargo: toml::Table = cargo.parse().expect("TOML");
+    let name = cargo["package"]["name"].as_str();
+    assert_eq!(name, Some("crate-lagrange-core"));
 }
 
 #[test]

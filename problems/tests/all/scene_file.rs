@@ -137,6 +137,10 @@ fn mistakes_are_told_at_their_place() {
             "3:8: a number, without quotes, is expected here, not a text",
         ),
         (
+            in_wheel("[parameters]\nmass = 0x10"),
+            "3:8: numbers are written in decimal digits",
+        ),
+        (
             in_wheel("[parameters]\nmass = inf"),
             "3:8: the value must be finite",
         ),

@@ -109,6 +109,44 @@ fn missing_shards_are_named() {
     refuses(&["merge", path(&folder)], 1, "is not the folder of a sweep");
 }
 
+/// A picture without a point is refused when all else is written, so that nothing is left to be gone on with.
+#[test]
+fn what_has_no_picture_is_done_all_the_same() {
+    let folder = place("no-picture");
+    let file = |name: &str| folder.join(name);
+    let (lines, picture) = (file("runs.csv"), file("runs.svg"));
+    let swept = |observed: &str| {
+        let arguments = [
+            "sweep",
+            "bouncing-ball",
+            "--vary",
+            "bounce=0.1..0.2:3",
+            "--quiet",
+        ];
+        let files = ["--output", path(&lines), "--plot", path(&picture)];
+        lagrange(&[&arguments[..], &["--observe", observed], &files].concat())
+    };
+    let output = swept("t at floor impact 90");
+    assert_eq!(output.status.code(), Some(1));
+    let said = text(&output.stderr);
+    assert!(
+        said.contains("there is nothing to draw: no run has what was observed"),
+        "{said}"
+    );
+    assert!(
+        text(&output.stdout).contains("3 runs of bouncing-ball"),
+        "{}",
+        text(&output.stdout)
+    );
+    assert_eq!(
+        fs::read_to_string(&lines).expect("lines").lines().count(),
+        4
+    );
+    assert!(!picture.exists() && !part(&lines, "").0.exists());
+    assert_eq!(swept("t at floor impact 2").status.code(), Some(0));
+    assert!(picture.exists());
+}
+
 #[test]
 fn killed_ten_times_it_loses_nothing() {
     let folder = place("killed");
