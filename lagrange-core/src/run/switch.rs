@@ -323,6 +323,12 @@ impl<T: Scalar> Run<T> {
 
     /// The forces just before, and the impact if something is hit; whether one was.
     pub(super) fn meet(&mut self, facts: &mut SwitchFacts) -> Result<bool, Error> {
+        let arrives = facts.arriving.contains(&true);
+        if arrives && !self.is_undecided() {
+            // Rows that depend on each other where constraints are satisfied, as those of two points of a body that an impact holds, are independent by what
+            // is left of a residual, and no impulse satisfies them.
+            self.project(true)?;
+        }
         self.take_sides_not_watched();
         if !self.now.valued {
             self.evaluate()?;
@@ -330,7 +336,6 @@ impl<T: Scalar> Run<T> {
         self.remember_before();
         self.take_sides_that_jumped(facts);
         self.note_edges_held();
-        let arrives = facts.arriving.contains(&true);
         let hit = arrives && self.hit(facts)?;
         if self.is_at_edge() {
             self.leave_regions(hit, facts);
