@@ -239,12 +239,30 @@ impl Equations {
             let row = self.d.constraints[i].row;
             let name = self.d.constraints[i].name;
             if self.constraint_acts(i, mode) {
-                let (error, size) = self.acceleration((value, self.level(i)), at, mode);
-                findings.book(Subject::Rows, error.abs(), size, at.time, name);
+                self.examine_row((value, self.level(i)), at, mode, name, findings);
             } else {
                 findings.book(Subject::Idle, at.forces[row].abs(), 1.0, at.time, name);
             }
         }
+    }
+
+    /// Whether accelerations keep a row. Rows that depend on each other where constraints are satisfied contradict each other by what is left of residuals.
+    fn examine_row(
+        &mut self,
+        row: (usize, Level),
+        at: Situation<'_>,
+        mode: &Mode,
+        name: &'static str,
+        findings: &mut Findings,
+    ) {
+        let (error, size) = self.acceleration(row, at, mode);
+        let left = if at.shared {
+            findings.tolerance * size
+        } else {
+            0.0
+        };
+        let error = beyond(error.abs(), left);
+        findings.book(Subject::Rows, error, size, at.time, name);
     }
 
     fn examine_contacts(&mut self, at: Situation<'_>, mode: &Mode, findings: &mut Findings) {
@@ -254,8 +272,7 @@ impl Equations {
                 findings.book(Subject::Idle, force.abs(), 1.0, at.time, name);
                 continue;
             }
-            let (error, size) = self.acceleration((contact.gap, Level::Position), at, mode);
-            findings.book(Subject::Rows, error.abs(), size, at.time, name);
+            self.examine_row((contact.gap, Level::Position), at, mode, name, findings);
         }
     }
 
@@ -281,8 +298,7 @@ impl Equations {
                 FrictionMode::Stick => {
                     findings.book(Subject::Slips, length(slip), reach, at.time, name);
                     for &value in friction.slip {
-                        let (error, size) = self.acceleration((value, Level::Velocity), at, mode);
-                        findings.book(Subject::Rows, error.abs(), size, at.time, name);
+                        self.examine_row((value, Level::Velocity), at, mode, name, findings);
                     }
                 }
                 FrictionMode::Slip(sliding) => {

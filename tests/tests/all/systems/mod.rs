@@ -70,6 +70,7 @@ mod joint_rests;
 mod joint_stops;
 mod just_true;
 mod kepler;
+mod kerb;
 mod kicks;
 mod kinked_marks;
 mod landings;
