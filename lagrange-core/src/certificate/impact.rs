@@ -55,7 +55,9 @@ impl<T: Scalar> Examination<'_, T> {
         let (before, after) = (event.state.values(), event.state_after.values());
         let impulses: Vec<f64> = event.impulses.iter().map(|x| x.value()).collect();
         let equations = &mut self.equations;
-        equations.size = equations.momentum_sizes(time, &after);
+        equations.take(Situation::of_state(time, &after));
+        let rates_after = equations.rates(time, &after);
+        equations.size = equations.momentum_sizes(time, &after, &event.after);
         equations.momenta(time, &after, &[]);
         for (i, gradient) in equations.gradients.iter().enumerate() {
             equations.residual[i] = gradient.velocity.sum;
@@ -66,8 +68,6 @@ impl<T: Scalar> Examination<'_, T> {
             equations.residual[i] -= gradient.velocity.sum + gradient.variation.sum;
             equations.size[i] += gradient.velocity.size + gradient.variation.size;
         }
-        equations.take(Situation::of_state(time, &after));
-        let rates_after = equations.rates(time, &after);
         equations.take(Situation::of_state(time, &before));
         let rates_before = equations.rates(time, &before);
         let contacts = equations.d.contacts.iter();

@@ -106,7 +106,7 @@ impl Equations {
                 let size = self.force_along(contact.gap, Level::Position);
                 let mut beyond = -force - blur - shared * size;
                 if beyond > 0.0 {
-                    beyond -= self.rounding_along(contact.gap, Level::Position, at);
+                    beyond -= self.rounding_along(contact.gap, Level::Position, at, mode);
                 }
                 findings.book(Subject::NormalForces, beyond, size, at.time, name);
             }
@@ -122,7 +122,7 @@ impl Equations {
             let size = self.force_along_slips(friction.slip) + mu * normal_size;
             let mut beyond = force - mu * normal - blur - shared * size;
             if beyond > 0.0 {
-                let along = |&slip: &usize| self.rounding_along(slip, Level::Velocity, at);
+                let along = |&slip: &usize| self.rounding_along(slip, Level::Velocity, at, mode);
                 beyond -= friction.slip.iter().map(along).fold(0.0, f64::max);
             }
             findings.book(Subject::Cones, beyond, size, at.time, name);
@@ -133,10 +133,16 @@ impl Equations {
     }
 
     /// What rounding makes of a force along a value where hardly any acts: the force that would take away a second's rounding error of velocities beside 1.
-    fn rounding_along(&mut self, value: usize, level: Level, at: Situation<'_>) -> f64 {
+    fn rounding_along(
+        &mut self,
+        value: usize,
+        level: Level,
+        at: Situation<'_>,
+        mode: &Mode,
+    ) -> f64 {
         let balance = self.gradients.clone();
         let state = State::new(at.q.to_vec(), at.v.to_vec());
-        let momenta = self.momentum_sizes(at.time, &state);
+        let momenta = self.momentum_sizes(at.time, &state, mode);
         self.gradients = balance;
         let (along, square) = self.along(value, level, &momenta);
         match square > 0.0 {

@@ -101,6 +101,7 @@ impl Equations {
         let brought = self.brought(&size, mode);
         let sizes = size.iter_mut().zip(brought);
         sizes.for_each(|(size, brought)| *size += brought);
+        self.measure_forces_of_rates(&mut size, at, mode);
         self.spread(&mut size, mode);
         self.size = size;
     }
@@ -161,6 +162,27 @@ impl Equations {
         along / square.max(f64::MIN_POSITIVE)
     }
 
+    /// Makes sizes of what balances as large as the forces that would give coordinates with inertia the terms of the rates of rows in which others have
+    /// none: beside these terms the forces of such rows are rounded, and where nothing else acts, as where a body that nothing pushes is
+    /// seen by its polar angle, there is no other measure.
+    fn measure_forces_of_rates(&mut self, sizes: &mut [f64], at: Situation<'_>, mode: &Mode) {
+        for row in 0..self.d.rows.len() {
+            if !self.acts(row, mode) {
+                continue;
+            }
+            let (value, level) = self.row(row);
+            let (_, terms) = self.acceleration_beside(0.0, value, level, at);
+            self.values.gradient_size(value, 0, &mut self.sizes_along);
+            let elements = self.sizes_along.iter().map(|sizes| sizes[level as usize]);
+            let acting = elements.zip(&self.inertia).filter(|(a, _)| *a > 0.0);
+            let (having, without): (Vec<_>, Vec<_>) = acting.partition(|(_, m)| **m > 0.0);
+            if !having.is_empty() && !without.is_empty() {
+                let mobility: f64 = having.iter().map(|(a, m)| a * a / **m).sum();
+                self.bring(level, terms / mobility, sizes);
+            }
+        }
+    }
+
     /// Takes a force along the value that was looked at last, where it is more than what is brought already.
     fn bring(&self, level: Level, force: f64, brought: &mut [f64]) {
         for (brought, sizes) in brought.iter_mut().zip(&self.sizes_along) {
@@ -182,13 +204,24 @@ impl Equations {
         }
     }
 
-    /// Momenta at larger velocities, as sizes: what rounding errors of velocities that cancel are
-    /// relative to.
-    pub fn momentum_sizes(&mut self, time: f64, state: &State<f64>) -> Vec<f64> {
+    /// Momenta at larger velocities in the state taken, as sizes: what rounding errors of velocities that cancel are relative to. Coordinates without
+    /// inertia have what the forces of rows bring into their equations from others.
+    pub fn momentum_sizes(&mut self, time: f64, state: &State<f64>, mode: &Mode) -> Vec<f64> {
         let v = raised(&state.v);
         let raised = State::new(state.q.clone(), v);
         self.momenta(time, &raised, &[]);
-        self.gradients.iter().map(|g| g.velocity.size).collect()
+        let mut sizes: Vec<f64> = self.gradients.iter().map(|g| g.velocity.size).collect();
+        if sizes.contains(&0.0) {
+            self.measure_inertia(Situation::of_state(time, state));
+            let mut spread = sizes.clone();
+            self.spread(&mut spread, mode);
+            let without = sizes
+                .iter_mut()
+                .zip(spread)
+                .filter(|(size, _)| **size == 0.0);
+            without.for_each(|(size, brought)| *size = brought);
+        }
+        sizes
     }
 
     /// Energies of none and of each velocity by itself, which do not cancel: what huge velocities are rounded beside, and those of what is

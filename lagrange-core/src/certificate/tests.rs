@@ -523,3 +523,171 @@ fn an_impulse_of_what_is_held_alone_is_an_impact() {
         assert!(certificate.holds(), "{mass}: {certificate}");
     }
 }
+
+/// A body that nothing pushes, and a telescope without inertia that follows it, with its worm gear.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, telescope, worm),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    constraint(sight: x * sin(telescope) == y * cos(telescope)),
+    constraint(gear: worm == 40 * telescope),
+    contact(wall: x <= 2 * length, restitution = 1/2),
+)]
+struct Telescope {
+    mass: f64,
+    length: f64,
+}
+
+/// The same where a billionth of the body's energy holds the worm.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, telescope, worm),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    constraint(sight: x * sin(telescope) == y * cos(telescope)),
+    constraint(gear: worm == 40 * telescope),
+    contact(wall: x <= 2 * length, restitution = 1/2),
+    force(held: worm = -mass * length^2 / 1000000000),
+)]
+struct HeldTelescope {
+    mass: f64,
+    length: f64,
+}
+
+/// The body flies from (1, y) lengths with velocity (3, v) lengths per second.
+fn seen(telescope: &Telescope, y: f64, v: f64) -> Trajectory {
+    let (angle, rate) = (y.atan(), (v - 3.0 * y) / (1.0 + y * y));
+    let l = telescope.length;
+    let start = State::new(
+        vec![l, y * l, angle, 40.0 * angle],
+        vec![3.0 * l, v * l, rate, 40.0 * rate],
+    );
+    let run = Simulation::new(telescope).run(start, 0.0..1.0);
+    run.expect("a run")
+}
+
+const TELESCOPES: [Telescope; 3] = [
+    Telescope {
+        mass: 700.0,
+        length: 1e-3,
+    },
+    Telescope {
+        mass: 0.6,
+        length: 1.0,
+    },
+    Telescope {
+        mass: 0.03,
+        length: 1e4,
+    },
+];
+
+/// What follows it without inertia does not turn a body from its straight line. Errors of the force by which it does not are no larger than rounding of what
+/// would hold it.
+#[test]
+fn what_follows_without_inertia_is_certified() {
+    for telescope in &TELESCOPES {
+        for k in 0..20 {
+            let (y, v) = (-0.9 + 0.11 * f64::from(k), 1.3 - 0.17 * f64::from(k));
+            let run = seen(telescope, y, v);
+            let wide = 2.0 - 1.5 * (1.0 - 1.0 / 3.0);
+            let expected = (y + v).atan2(wide);
+            let angle = run.final_state().q[2];
+            assert!((angle - expected).abs() < 1e-9, "{angle}, not {expected}");
+            let certificate = certificate(&run);
+            assert!(certificate.holds(), "{telescope:?} {k}: {certificate}");
+        }
+    }
+}
+
+#[test]
+fn a_force_on_what_has_no_inertia_is_found() {
+    for telescope in &TELESCOPES {
+        let run = seen(telescope, 0.4, -0.3);
+        let held = against(&run, <HeldTelescope as Derived>::DECLARATION, 1, 1.0);
+        finds(&held, &[Subject::Equations]);
+        assert_eq!(held.worst().expect("checks").item, "worm");
+    }
+}
+
+#[test]
+fn an_impulse_on_what_has_no_inertia_is_found() {
+    for telescope in &TELESCOPES {
+        let mut run = seen(telescope, 0.4, -0.3);
+        let mut event = run.events()[0].clone();
+        assert_eq!(event.kind, EventKind::Impact);
+        let gear = run.description().constraints[1].row;
+        event.impulses[gear] += 1e-9 * telescope.mass * telescope.length.powi(2);
+        run.events.clear();
+        run.events.push(&event);
+        let found = certificate(&run);
+        finds(&found, &[Subject::Impulses]);
+    }
+}
+
+/// A body on a ramp that is given as the least angle at which a telescope sees it, and a bumper across it.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    emit = data,
+    coordinates(x, y, telescope),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    potential = mass * gravity * y,
+    constraint(sight: x * sin(telescope) == y * cos(telescope)),
+    contact(ramp: telescope >= slope),
+    contact(bumper: x * cos(slope) + y * sin(slope) >= length, restitution = bounce),
+    start(sent: x = 2 * length * cos(slope), y = 2 * length * sin(slope), telescope = slope,
+        der(x) = -speed * cos(slope), der(y) = -speed * sin(slope)),
+)]
+struct Ramp {
+    mass: f64,
+    gravity: f64,
+    slope: f64,
+    length: f64,
+    speed: f64,
+    bounce: f64,
+}
+
+/// The run until 1 s, with one impact.
+fn bumped(length: f64, gravity: f64, slope: f64) -> (Ramp, Trajectory) {
+    let ramp = Ramp {
+        mass: 0.3,
+        gravity: gravity * length,
+        slope,
+        length,
+        speed: 2.0 * length,
+        bounce: 0.6,
+    };
+    let run = Simulation::new(&ramp).run(ramp.at(Ramp::SENT), 0.0..0.8);
+    (ramp, run.expect("a run"))
+}
+
+/// The ramp has no part in a blow along it, and without gravity bears no load at all.
+#[test]
+fn what_is_held_without_inertia_and_not_struck_is_certified() {
+    for length in [1e-3, 1.0, 1e4] {
+        for gravity in [0.0, 9.81] {
+            for k in 1..14 {
+                let slope = 0.1 * f64::from(k);
+                let (ramp, run) = bumped(length, gravity, slope);
+                let along = gravity * slope.sin();
+                let after = ramp.bounce * (4.0 + 2.0 * along).sqrt();
+                let blow = &run.events()[0];
+                let speed = blow.state_after.v[0].hypot(blow.state_after.v[1]) / length;
+                assert!((speed - after).abs() < 1e-9, "{speed}, not {after}");
+                let certificate = certificate(&run);
+                assert!(certificate.holds(), "{ramp:?}: {certificate}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_blow_of_what_is_not_struck_is_found() {
+    for length in [1e-3, 1.0, 1e4] {
+        let (ramp, mut run) = bumped(length, 9.81, 0.7);
+        let mut events = run.events().to_vec();
+        let row = run.description().contacts[0].row;
+        events[0].impulses[row] -= 1e-3 * ramp.mass * length.powi(2);
+        run.events.clear();
+        events.iter().for_each(|event| run.events.push(event));
+        finds(&certificate(&run), &[Subject::Impulses, Subject::Impacts]);
+    }
+}

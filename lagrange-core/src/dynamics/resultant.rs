@@ -167,6 +167,12 @@ impl<T: Scalar> Dynamics<T> {
         self.resultants.of[i].held
     }
 
+    /// Forgets where forces that press together have pointed: directions are found to within what settles, and from where they are looked for shows
+    /// in the last digits.
+    pub(crate) fn forget_load_directions(&mut self) {
+        self.resultants.restart();
+    }
+
     /// The order of the first coefficient of resultant `i` in the last series; none if it stays zero.
     pub(crate) fn resultant_order(&self, i: usize) -> Option<usize> {
         self.resultants.of[i].leading

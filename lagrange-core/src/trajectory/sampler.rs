@@ -302,13 +302,14 @@ impl<'a, T: Scalar> Sampler<'a, T> {
     ) -> Result<Instant<T>, Error> {
         let d = self.trajectory.description();
         let dynamics = &mut self.dynamics;
+        // What is found at an instant does not depend on those that were looked at before.
+        dynamics.forget_load_directions();
+        self.redundant.restart();
         let outcome = if self.headed {
             dynamics.value(t, &state.q, &state.v)
         } else {
             dynamics.value_along(t, &state.q, &state.v)
         };
-        // How forces are shared does not depend on instants that were looked at before.
-        self.redundant.restart();
         let outcome = outcome.and_then(|()| instant(dynamics, &mut self.redundant, t, state));
         let mut instant = outcome.map_err(|e| Error::from_evaluation(e, t.value(), mode, d))?;
         // The mode is that of the phase.

@@ -165,6 +165,19 @@ fn rows_aside_in_an_earlier_run_are_forgotten() {
     }
 }
 
+/// What a sampler finds at instants in a mixed order is what a new one finds at each.
+fn assert_alike_in_any_order(run: &Trajectory) {
+    let mut reused = run.sampler();
+    for part in (0..=25).map(|k| 7 * k % 26) {
+        let time = run.last_time() * f64::from(part) / 25.0;
+        let [again, alone] = [&mut reused, &mut run.sampler()].map(|sampler| {
+            let Instant { forces, held, .. } = sampler.at(time).expect("recorded");
+            (forces, held)
+        });
+        assert_eq!(again, alone, "at {time}");
+    }
+}
+
 /// Forces of the feet are shared as they are at an instant, whatever else was looked at before.
 #[test]
 fn samples_do_not_depend_on_one_another() {
@@ -174,15 +187,38 @@ fn samples_do_not_depend_on_one_another() {
         push: 5.3,
     };
     let run = Simulation::new(&sled).run(sled.at(ThreeFeet::SLIDES), 0.0..2.5);
-    let run = run.expect("runs");
-    let mut reused = run.sampler();
-    for tenths in (0..25).map(|k| 7 * k % 25) {
-        let time = 0.1 * f64::from(tenths);
-        let [again, alone] = [&mut reused, &mut run.sampler()].map(|sampler| {
-            let Instant { forces, held, .. } = sampler.at(time).expect("recorded");
-            (forces, held)
-        });
-        assert_eq!(again, alone, "at {time}");
+    assert_alike_in_any_order(&run.expect("runs"));
+}
+
+/// A pendulum on a rough pin.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    emit = data,
+    coordinates(x, y, theta),
+    kinetic = (der(x)^2 + der(y)^2) / 2 + inertia/2 * der(theta)^2,
+    potential = 9.81 * y,
+    constraint(pin_x: x == sin(theta)),
+    constraint(pin_y: y == -cos(theta)),
+    friction(pin on (pin_x, pin_y): slip = radius * der(theta), static = mu),
+    start(spun: y = -1, der(x) = 9, der(theta) = 9),
+)]
+struct RoughPin {
+    inertia: f64,
+    radius: f64,
+    mu: f64,
+}
+
+/// The direction of the load on a pin follows from the friction that it causes, and is looked for at each instant anew.
+#[test]
+fn samples_of_a_load_do_not_depend_on_one_another() {
+    for mu in [0.1, 0.4, 0.7] {
+        let pin = RoughPin {
+            inertia: 0.4,
+            radius: 0.3,
+            mu,
+        };
+        let run = Simulation::new(&pin).run(pin.at(RoughPin::SPUN), 0.0..2.0);
+        assert_alike_in_any_order(&run.expect("runs"));
     }
 }
 
