@@ -4,7 +4,7 @@
 
 use super::element::{self, Element};
 use super::layout::{CURSOR, LETTER, Layout, Place, Seen, letters};
-use super::still::{arrows, decimals, marks};
+use super::still::{arrows, decimals, marks, reading};
 use super::{Clock, Panel};
 use crate::report::picture::{self, Form, Mark, WIDTH, nice};
 use lagrange_engine::inspect::print::mathml::escaped;
@@ -220,7 +220,7 @@ impl Reel {
         let readings = self
             .instants
             .iter()
-            .map(|t| format!("t = {:.decimals$} s", (t / step).floor() * step));
+            .map(|t| reading((t / step).floor() * step, decimals));
         self.words(&readings.collect::<Vec<_>>(), 0.0, y, out);
         let modes = self.instants.iter().map(|t| layout.mode(panel, *t));
         self.words(&modes.collect::<Vec<_>>(), 9.0 * LETTER, y, out);

@@ -27,7 +27,8 @@ pub fn stills<'a>(panels: &'a [Panel], clock: &'a Clock) -> impl Iterator<Item =
             let _ = writeln!(
                 out,
                 "<path class=\"cursor\" d=\"M{x:.1} {top:.1}v{CURSOR}\"/><text class=\"words\" y=\"{y:.1}\">\
-                 t = {time:.decimals$} s</text><text class=\"words\" x=\"{words:.1}\" y=\"{y:.1}\"{}>{}</text>\n</g>",
+                 {}</text><text class=\"words\" x=\"{words:.1}\" y=\"{y:.1}\"{}>{}</text>\n</g>",
+                reading(time, decimals),
                 letters(&mode, words),
                 escaped(&mode)
             );
@@ -39,8 +40,17 @@ pub fn stills<'a>(panels: &'a [Panel], clock: &'a Clock) -> impl Iterator<Item =
 /// Digits after the point with which times of a film are told.
 pub(super) fn decimals(duration: f64) -> usize {
     match duration > 0.0 {
-        true => (3 - duration.log10().floor() as i32).clamp(0, 9) as usize,
+        true => (3 - duration.log10().floor() as i32).max(0) as usize,
         false => 0,
+    }
+}
+
+/// What the clock shows, with so many digits after the point; more of them than there is room for follow a power of ten.
+pub(super) fn reading(time: f64, decimals: usize) -> String {
+    const ROOM: usize = 9;
+    match decimals.checked_sub(3).filter(|_| decimals > ROOM) {
+        Some(power) => format!("t = {:.3}e-{power} s", time * 10_f64.powi(power as i32)),
+        None => format!("t = {time:.decimals$} s"),
     }
 }
 

@@ -60,12 +60,11 @@ struct Happening {
 pub(super) fn data(runs: &[Shown], speed: Option<f64>) -> Data {
     let films: Vec<&Film> = runs.iter().map(|run| &run.film).collect();
     let (first, last) = span(films.iter().copied());
-    let speed = speed.unwrap_or_else(|| usual_speed(last - first));
-    let mut speeds = SPEEDS.to_vec();
-    if !speeds.contains(&speed) {
-        speeds.push(speed);
-        speeds.sort_by(f64::total_cmp);
-    }
+    let usual = usual_speed(last - first);
+    let speed = speed.unwrap_or(usual);
+    let mut speeds = [&SPEEDS[..], &[usual, speed]].concat();
+    speeds.sort_by(f64::total_cmp);
+    speeds.dedup();
     let first = |film: &Film| {
         let of_scene = |other: &&Film| other.outcome.scene == film.outcome.scene;
         let first = films.iter().copied().find(of_scene);

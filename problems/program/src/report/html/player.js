@@ -6,9 +6,9 @@
   const still = matchMedia("(prefers-reduced-motion: reduce)");
   const first = Math.min(...runs.map((run) => run.time[0] ?? 0));
   const end = Math.max(...runs.map((run) => run.time[run.time.length - 1] ?? 0));
-  const duration = Math.max(end - first, 1e-9);
+  const duration = end - first || 1;
   const stops = [first, ...runs.flatMap((run) => run.events.map((event) => event.time)), end].sort((a, b) => a - b);
-  const decimals = Math.max(0, 3 - Math.floor(Math.log10(duration)));
+  const decimals = Math.min(Math.max(0, 3 - Math.floor(Math.log10(duration))), 100);
   let time = first, playing = false, since = 0;
 
   // Runs of one scene have the same axes.

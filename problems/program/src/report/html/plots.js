@@ -141,7 +141,7 @@ function chart(figure, legend, { title, xName, axis, whole, span, lines, seek, u
       set(cursor, { x1: now, x2: now, "stroke-dasharray": pointed === null ? "none" : "3 3" });
     }
     lines.forEach(({ xs, ys, times }, i) => {
-      const where = place(times, time), over = time > times[times.length - 1] + 1e-9;
+      const where = place(times, time), end = times[times.length - 1], over = time > end + 1e-9 * (end - times[0]);
       outputs[i].textContent = digits(over ? null : at(ys, where));
       if (dots[i]) set(dots[i], { cx: scale.X(at(xs, where)), cy: scale.Y(at(ys, where) ?? 0) });
     });
