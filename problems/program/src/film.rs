@@ -3,7 +3,7 @@
 use crate::drawing::Drawing;
 use crate::drawn::{self, Pictures};
 use crate::outcome::pieces::PIECE;
-use crate::outcome::{Outcome, equal};
+use crate::outcome::{Outcome, book_times, equal};
 use crate::request::{Refusal, Request};
 use crate::scene::Scene;
 use crate::space::Space;
@@ -66,6 +66,10 @@ impl Reel {
         };
         let mut outcome = Outcome::sampled(scene, trajectory, failure, &booked, times);
         outcome.event_ledgers = Vec::new();
+        if request.plotted {
+            let times = book_times(&outcome.curve);
+            outcome.curve_ledgers = trajectory.ledgers(&times).unwrap_or_default();
+        }
         let samples = outcome.samples.iter();
         let instants = samples.map(|sample| (sample.time, &sample.mode, &sample.state));
         Self {

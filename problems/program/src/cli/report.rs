@@ -276,6 +276,7 @@ impl Report {
         let until = request.until.unwrap_or(file.scene.until());
         let request = Request {
             samples: html::intervals(file.scene.description(), until, self.runs()),
+            plotted: self.form()? == Form::Html,
             progress: Some(progress.clone()),
             ..request
         };
