@@ -3,9 +3,11 @@
 //! They are read from the declaration as it was written, by the evaluator of certificates; the run knows nothing of them.
 
 use crate::drawing::{Arrow, Drawing, Shape};
-use crate::outcome::{Outcome, Sample, forces};
+use crate::outcome::{Outcome, forces};
+use crate::path::{Path, follow};
 use crate::space::{Pose, Solid, Space, Vector};
 use lagrange_core::__private::declaration::{Declaration, Draw, Evaluator, Form, Inputs, Turn};
+use lagrange_core::prelude::*;
 
 /// The pictures of all samples: in a plane, or in space.
 #[derive(Default)]
@@ -27,7 +29,10 @@ pub(crate) fn pictures(declaration: &'static Declaration, outcome: &Outcome) -> 
         return Pictures::default();
     }
     let mut instant = Instant::new(declaration, &outcome.parameters);
-    let samples = outcome.samples.iter();
+    let samples = outcome
+        .samples
+        .iter()
+        .map(|s| (s.time, &s.state, &s.forces));
     let places = draws.iter().flat_map(|draw| draw.places);
     match places.map(|place| place.len()).max() {
         Some(3) => Pictures {
@@ -43,6 +48,31 @@ pub(crate) fn pictures(declaration: &'static Declaration, outcome: &Outcome) -> 
             ..Pictures::default()
         },
     }
+}
+
+/// Where what is drawn with a path has been in a motion.
+pub(crate) fn paths(trajectory: &Trajectory) -> Vec<Path> {
+    let declaration = trajectory.declaration();
+    let draws = declaration.draws.iter();
+    let draws: Vec<&Draw> = draws.filter(|draw| draw.form == Form::Path).collect();
+    let mut paths = vec![Path::default(); draws.len()];
+    let parameters = 0..trajectory.description().parameters.len();
+    let parameters: Vec<f64> = parameters.map(|i| trajectory.parameter(i)).collect();
+    let mut instant = Instant::new(declaration, &parameters);
+    let mut sampler = trajectory.sampler();
+    let mut at = |time: f64| match sampler.at(time) {
+        Ok(known) => {
+            let moment = instant.at((time, &known.state, &known.forces), &draws);
+            let place = |draw: &&Draw| moment.list(draw.places[0]).into();
+            draws.iter().map(place).collect()
+        }
+        Err(_) => vec![Vector::repeat(f64::NAN); draws.len()],
+    };
+    if !draws.is_empty() {
+        let times = trajectory.step_times().chain([trajectory.last_time()]);
+        follow(&mut paths, times, &mut at);
+    }
+    paths
 }
 
 /// Whether all items whose forces an arrow shows are in the run.
@@ -71,16 +101,21 @@ impl Instant {
         }
     }
 
-    fn at<'a>(&'a mut self, sample: &'a Sample, draws: &'a [&'a Draw]) -> Moment<'a> {
-        let still = vec![0.0; sample.state.q.len()];
+    /// At a time, in a state, with these forces along the rows.
+    fn at<'a>(
+        &'a mut self,
+        (time, state, forces): (f64, &'a State<f64>, &'a Vec<f64>),
+        draws: &'a [&'a Draw],
+    ) -> Moment<'a> {
+        let still = vec![0.0; state.q.len()];
         let mut loads = vec![0.0; self.declaration.forces.len()];
         let mut evaluate = |loads: &[f64]| {
             self.evaluator.evaluate(Inputs {
-                time: sample.time,
-                q: &sample.state.q,
-                v: &sample.state.v,
+                time,
+                q: &state.q,
+                v: &state.v,
                 acceleration: &still,
-                forces: &sample.forces,
+                forces,
                 loads,
             });
             let values = self.declaration.forces.iter();
@@ -95,7 +130,7 @@ impl Instant {
         let _: Vec<f64> = evaluate(&loads);
         Moment {
             evaluator: &self.evaluator,
-            q: &sample.state.q,
+            q: &state.q,
             draws,
         }
     }

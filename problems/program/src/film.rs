@@ -4,6 +4,7 @@ use crate::drawing::Drawing;
 use crate::drawn::{self, Pictures};
 use crate::outcome::pieces::PIECE;
 use crate::outcome::{Outcome, book_times, equal};
+use crate::path::Path;
 use crate::request::{Refusal, Request};
 use crate::scene::Scene;
 use crate::space::Space;
@@ -18,6 +19,8 @@ pub struct Film {
     pub drawings: Vec<Drawing>,
     /// The same for a scene in space.
     pub spaces: Vec<Space>,
+    /// The paths that are drawn, in the order of their shapes or solids.
+    pub paths: Vec<Path>,
     /// Time, s, and the energy book from the beginning to it; empty if it could not be drawn up.
     pub books: Vec<(f64, Ledger)>,
     /// Largest relative residual of what has to hold (constraints, closed contacts, slips that stick) at any sample; `None` if
@@ -48,6 +51,7 @@ impl dyn Scene + '_ {
 pub(crate) struct Reel {
     outcome: Outcome,
     drift: Option<f64>,
+    paths: Vec<Path>,
     declaration: &'static Declaration,
 }
 
@@ -74,6 +78,7 @@ impl Reel {
         let instants = samples.map(|sample| (sample.time, &sample.mode, &sample.state));
         Self {
             drift: drift(trajectory, instants),
+            paths: drawn::paths(trajectory),
             declaration: trajectory.declaration(),
             outcome,
         }
@@ -83,6 +88,9 @@ impl Reel {
     pub(crate) fn join(&mut self, next: Self) {
         self.outcome.join(next.outcome);
         self.drift = self.drift.into_iter().chain(next.drift).reduce(f64::max);
+        for (path, next) in self.paths.iter_mut().zip(&next.paths) {
+            path.join(next);
+        }
     }
 
     /// Draws what is kept.
@@ -92,6 +100,7 @@ impl Reel {
         Film {
             drawings,
             spaces,
+            paths: self.paths,
             books: books(&mut outcome),
             drift: self.drift,
             outcome,

@@ -6,7 +6,7 @@ use super::element::{self, Element};
 use super::layout::{CURSOR, LETTER, Layout, Place, Seen, letters};
 use super::still::{arrows, decimals, marks, reading};
 use super::{Clock, Panel};
-use crate::report::picture::{self, Form, Mark, WIDTH, nice};
+use crate::report::picture::{self, Form, Stroke, WIDTH, nice};
 use lagrange_engine::inspect::print::mathml::escaped;
 use std::fmt::Write;
 
@@ -93,13 +93,13 @@ impl Reel {
             painter.grid(out);
             self.solids(&places, |place, out| painter.below(place, out), out);
             for trace in &painter.traces {
-                self.trace(trace, &places, out);
+                self.trace(trace, out);
             }
             self.solids(&places, |place, out| painter.above(place, out), out);
         }
         for mark in panel.picture.iter().flat_map(|picture| &picture.marks) {
-            if mark.form == Form::Trace {
-                self.trace(mark, &places, out);
+            if let Form::Trace { strokes } = &mark.form {
+                self.trace(strokes, out);
                 continue;
             }
             let elements = places.iter();
@@ -174,30 +174,16 @@ impl Reel {
         first.write(&inside, out);
     }
 
-    /// A path that grows.
-    fn trace(&self, mark: &Mark, places: &[picture::Place], out: &mut String) {
-        let points = places
-            .iter()
-            .map(|place| [0, 1].map(|k| mark.numbers[k].at(*place)));
-        let points: Vec<[f64; 2]> = points.collect();
-        let mut lengths = vec![0.0];
-        for pair in points.windows(2) {
-            let step = (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
-            lengths.push(lengths[lengths.len() - 1] + step);
-        }
-        let whole = lengths[lengths.len() - 1];
-        if whole > 0.0 {
-            let left = lengths
-                .iter()
-                .map(|length| format!("{:.4}", 1.0 - length / whole));
-            let left: Vec<String> = left.collect();
-            let left: Vec<&str> = left.iter().map(String::as_str).collect();
-            let _ = writeln!(
-                out,
-                "<polyline class=\"trace\" pathLength=\"1\" stroke-dasharray=\"1 2\" points=\"{}\">{}</polyline>",
-                element::pairs(&points.concat()),
-                self.animate("stroke-dashoffset", &left)
-            );
+    /// A path that grows: what is new of it at each instant stays from then on.
+    fn trace(&self, strokes: &[Stroke], out: &mut String) {
+        for (k, pair) in self.instants.windows(2).enumerate() {
+            let Some(new) = element::trace(strokes, pair[0], pair[1]) else {
+                continue;
+            };
+            let seen: Vec<bool> = (0..self.instants.len()).map(|i| i > k).collect();
+            let _ = write!(out, "<g visibility=\"hidden\">{}", self.seen(&seen));
+            new.write("", out);
+            out.push_str("</g>\n");
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::layout::Seen;
 use crate::report::picture::palette::colour;
-use crate::report::picture::{Form, Mark, Place, WIDTH, outline};
+use crate::report::picture::{Form, Mark, Place, Stroke, WIDTH, outline, part};
 use lagrange_engine::inspect::print::mathml::escaped;
 use std::fmt::Write;
 
@@ -62,11 +62,6 @@ pub(super) fn mark(mark: &Mark, place: Place, height: f64) -> Option<Element> {
             let fixed = format!("{class} x=\"-9\" width=\"{width}\" height=\"{height}\"");
             Element::new("rect", fixed, vec![("y", short(*y))])
         }
-        (Form::Trace, [x, y]) => {
-            let so_far = mark.path(place.sample).chain([[*x, *y]]);
-            let so_far: Vec<f64> = so_far.flatten().collect();
-            Element::new("polyline", class, vec![("points", pairs(&so_far))])
-        }
         (Form::Placed { line }, [x, y, angle, stretch]) => {
             let (sin, cos) = angle.to_radians().sin_cos();
             let joint = |[along, across]: &[f64; 2]| {
@@ -81,6 +76,19 @@ pub(super) fn mark(mark: &Mark, place: Place, height: f64) -> Option<Element> {
         }
         _ => return None,
     })
+}
+
+/// What of a path is drawn from one time to another; nothing if it has gaps there or stays where it is seen already.
+pub(super) fn trace(strokes: &[Stroke], from: f64, to: f64) -> Option<Element> {
+    let mut line = String::new();
+    for stroke in strokes {
+        for (k, [x, y]) in part(stroke, from, to).into_iter().enumerate() {
+            let pen = if k == 0 { 'M' } else { 'L' };
+            let _ = write!(line, "{pen}{} {}", short(x), short(y));
+        }
+    }
+    let class = " class=\"trace\"".to_owned();
+    (!line.is_empty()).then(|| Element::new("path", class, vec![("d", line)]))
 }
 
 /// Radius of the dot where a force acts.

@@ -3,7 +3,7 @@
 use super::element::{self, Element};
 use super::layout::{CURSOR, LETTER, Layout, Place, letters};
 use super::{Clock, Panel};
-use crate::report::picture::{self, WIDTH};
+use crate::report::picture::{self, Form, WIDTH};
 use lagrange_engine::inspect::print::mathml::escaped;
 use std::fmt::Write;
 
@@ -61,12 +61,17 @@ pub(super) fn marks(panel: &Place, time: f64, out: &mut String) {
         painter.grid(out);
         painter.below(place, out);
         for trace in &painter.traces {
-            put(element::mark(trace, place, panel.height), out);
+            put(element::trace(trace, f64::NEG_INFINITY, time), out);
         }
         painter.above(place, out);
     }
     for mark in panel.picture.iter().flat_map(|picture| &picture.marks) {
-        put(element::mark(mark, place, panel.seen_height()), out);
+        match &mark.form {
+            Form::Trace { strokes } => {
+                put(element::trace(strokes, f64::NEG_INFINITY, time), out);
+            }
+            _ => put(element::mark(mark, place, panel.seen_height()), out),
+        }
     }
 }
 

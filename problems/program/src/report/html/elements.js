@@ -67,6 +67,9 @@ function place(times, t) {
   return [low, width > 0 ? Math.min(Math.max((t - times[low]) / width, 0), 1) : 0];
 }
 
+// How many of ascending times have come.
+const reached = (times, t) => (t < times[0] ? 0 : place(times, t)[0] + 1);
+
 function at(column, [index, part]) {
   if (!Array.isArray(column)) return column;
   const a = column[index], b = column[index + 1];

@@ -18,14 +18,23 @@ function picture(stage, run) {
     ground(shape, [y]) { set(shape, { y }); },
     placed(shape, [x, y, turn, long]) { set(shape, { transform: `translate(${x} ${y}) rotate(${turn}) scale(${long} 1)` }); },
   };
-  const elements = { circle: "circle", polygon: "polygon", ground: "rect" };
+  const elements = { circle: "circle", polygon: "polygon", ground: "rect", trace: "path" };
   const drawn = marks.map((mark) => {
     const shape = svg(elements[mark.form] || "polyline", { class: mark.class }, root);
     if (mark.form === "ground") set(shape, { x: -30000, width: 61000, height: height + 10 });
     if (mark.form === "placed") set(shape, { points: mark.line.map((point) => point.join(",")).join(" ") });
     if (mark.form === "trace") {
-      const path = run.time.map((_, i) => pairs(mark.numbers.map((column) => at(column, [i, 0]))));
-      return (n, [index]) => set(shape, { points: [...path.slice(0, index + 1), pairs(n)].join(" ") });
+      const strokes = mark.strokes.map((points) => {
+        const times = points.map(([time]) => time), steps = points.map(([, x, y], i) => `${i ? "L" : "M"}${x} ${y}`), whole = steps.join("");
+        // The end goes straight on from point to point.
+        const end = (where) => [1, 2].map((k) => at(points.map((point) => point[k]), where)).join(" ");
+        return (time) => {
+          const count = reached(times, time);
+          if (count === 0 || count === steps.length) return count ? whole : "";
+          return `${steps.slice(0, count).join("")}L${end(place(times, time))}`;
+        };
+      });
+      return (n, where) => set(shape, { d: strokes.map((stroke) => stroke(at(run.time, where))).join("") });
     }
     return (n) => forms[mark.form](shape, n);
   });

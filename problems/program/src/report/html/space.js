@@ -52,7 +52,7 @@ function space(stage, run) {
     return [0, 1, 2, 3].flatMap((column) => rows.map((row) => row[column]));
   })();
 
-  const traces = bodies.filter((body) => body.kind === "trace").map(({ places }) => run.time.map((_, i) => places.map((column) => at(column, [i, 0]))));
+  const traces = bodies.flatMap(({ strokes }) => strokes || []).map((stroke) => ({ times: stroke.map(([time]) => time), points: stroke.map((point) => point.slice(1)) }));
   const straight = (mesh, from, to, wide, paint) => {
     const along = plus(to, from, -1);
     return { mesh, turn: towards(along), scale: [wide, wide, Math.hypot(...along)], at: from, first: paint, second: paint };
@@ -128,7 +128,7 @@ function space(stage, run) {
     if (following) seen.follow(leading());
     const now = seen.now();
     const parts = bodies.flatMap((body) => solids(body, last));
-    render({ parts, thrusts: pushing ? thrusts(last) : [], floor, camera: now, light, away: 0.004 * size, taps, sun, colours, traces: traces.map((points) => ({ points, count: last[0] + 1 })) });
+    render({ parts, thrusts: pushing ? thrusts(last) : [], floor, camera: now, light, away: 0.004 * size, taps, sun, colours, traces: traces.map(({ times, points }) => ({ points, count: reached(times, at(run.time, last)) })) });
     const taken = [];
     for (const arrow of pointed) {
       const { size: strength, label, value, name, impulse } = arrow, { acts, along, long } = ends(arrow, last), fine = thin * seen.near();

@@ -16,7 +16,7 @@ use crate::film::Film;
 pub(crate) use arrow::{Arrow, label, outline};
 pub(crate) use column::{Column, Place};
 use frame::{Frame, largest};
-pub(crate) use mark::{Form, Mark};
+pub(crate) use mark::{Form, Mark, Stroke, part};
 pub(crate) use painter::Painter;
 use serde::Serialize;
 pub(crate) use stage::{Stage, stages};
@@ -55,7 +55,7 @@ pub(crate) fn pictures(films: &[&Film]) -> Vec<Option<Picture>> {
         let alike = alike.filter(|other| other.outcome.scene == film.outcome.scene);
         let frame = Frame::around(alike)?;
         let first = film.drawings.first()?;
-        let marks = mark::marks(&film.drawings, &frame);
+        let marks = mark::marks(film, &frame);
         let arrows = arrow::arrows(film, &frame);
         let mut rulers = vec![Ruler::new(frame.ruler(), frame.scale, "m")];
         if !first.arrows.is_empty() && frame.newtons.strongest > 0.0 {
@@ -109,6 +109,11 @@ fn short(x: f64) -> String {
         true => ((x * 1e6).round() / 1e6).to_string(),
         false => format!("{x:.0e}"),
     }
+}
+
+/// A time to nine digits: a path may go round many times.
+fn finely(time: f64) -> f64 {
+    format!("{time:.8e}").parse().unwrap_or(time)
 }
 
 /// To hundredths of a unit, which nobody sees; what is not finite is 0.

@@ -7,7 +7,7 @@
 use super::palette::shaded;
 use super::stage::{Body, Thrust};
 use super::view::View;
-use super::{Column, Form, Mark, Place, Stage, hundredths, nice};
+use super::{Column, Place, Stage, Stroke, hundredths, nice};
 use crate::space::{UnitQuaternion, Vector};
 use core::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Write;
@@ -21,8 +21,8 @@ const ROUND: usize = 28;
 pub(crate) struct Painter {
     stage: Stage,
     pub view: View,
-    /// The paths so far, below the solids.
-    pub traces: Vec<Mark>,
+    /// The strokes of every path, below the solids.
+    pub traces: Vec<Vec<Stroke>>,
     size: f64,
     /// Radius of rods, m.
     thin: f64,
@@ -39,30 +39,28 @@ struct Piece {
 }
 
 impl Painter {
-    pub fn new(stage: Stage, samples: usize) -> Self {
+    pub fn new(stage: Stage) -> Self {
         let view = View::of(&stage);
         let edges = stage.high.iter().zip(&stage.low);
         let size = edges.fold(1e-9, |size, (high, low)| f64::max(size, high - low));
         let rods = stage.bodies.iter().filter(|body| body.kind == "rod");
         let rods = rods.count();
-        let trace = |body: &Body| {
-            let seen: Vec<[f64; 2]> = (0..samples)
-                .map(|sample| view.place(joints(body, Place { sample, part: 0.0 })[0]))
-                .collect();
-            Mark {
-                class: "trace",
-                form: Form::Trace,
-                numbers: [0, 1]
-                    .map(|k| Column::of(seen.iter().map(|place| hundredths(place[k]))))
-                    .into(),
-            }
+        let seen = |&[time, x, y, z]: &[f64; 4]| {
+            let [x, y] = view.place(Vector::new(x, y, z)).map(hundredths);
+            [time, x, y]
+        };
+        let strokes = |body: &Body| {
+            let strokes = body.strokes.iter();
+            strokes
+                .map(|stroke| stroke.iter().map(seen).collect())
+                .collect()
         };
         Self {
             traces: stage
                 .bodies
                 .iter()
                 .filter(|body| body.kind == "trace")
-                .map(trace)
+                .map(strokes)
                 .collect(),
             size,
             // Many rods are thin.
