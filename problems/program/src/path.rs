@@ -4,6 +4,7 @@
 //! already is not kept, so that a motion that goes round and round needs no more memory than its first rounds.
 
 use crate::space::Vector;
+use core::hash::{BuildHasherDefault, Hasher};
 use std::collections::HashSet;
 
 /// Cells along the longest edge of the box around a path, at most: about twice as many as a picture has pixels.
@@ -33,7 +34,10 @@ pub struct Path {
     pub high: Vector,
     /// Edge of a cell, m: a power of two.
     cell: f64,
-    covered: HashSet<[i64; 3]>,
+    /// Cells that strokes go through.
+    covered: Cells,
+    /// Those and the ones beside them.
+    beside: Cells,
     /// Where it was last, unless that is no place.
     end: Option<Point>,
     /// Whether the last stroke goes on.
@@ -47,7 +51,8 @@ impl Default for Path {
             low: Vector::repeat(f64::INFINITY),
             high: Vector::repeat(f64::NEG_INFINITY),
             cell: 0.0,
-            covered: HashSet::new(),
+            covered: Cells::default(),
+            beside: Cells::default(),
             end: None,
             drawing: false,
         }
@@ -111,67 +116,112 @@ impl Path {
         }
     }
 
-    fn cell(&self, at: &Vector) -> [i64; 3] {
-        [0, 1, 2].map(|axis| (at[axis] / self.cell).floor() as i64)
-    }
-
-    /// Whether a cell or one beside it is covered.
-    fn is_covered_near(&self, [x, y, z]: [i64; 3]) -> bool {
-        let beside = |k: usize| {
-            let step = |k: usize| [0, -1, 1][k % 3];
-            [
-                x.saturating_add(step(k)),
-                y.saturating_add(step(k / 3)),
-                z.saturating_add(step(k / 9)),
-            ]
-        };
-        (0..27).any(|k| self.covered.contains(&beside(k)))
-    }
-
     /// Draws what goes through new cells on the way to a point.
     fn draw_to(&mut self, to: Point) {
         let Some(from) = self.end.replace(to).filter(|_| self.cell > 0.0) else {
             return;
         };
-        let mut last = (from, self.cell(&from.at));
-        self.covered.insert(last.1);
+        let [start, end] = [from, to].map(|point| (point.at / self.cell).into());
+        let [[x, y, z], [u, v, w]]: [[f64; 3]; 2] = [start, end];
+        let count = (u - x).abs().max((v - y).abs()).max((w - z).abs());
+        let count = count.ceil().max(1.0);
+        // Plain numbers: of a motion that goes round and round this is the longest part.
+        let cell = |k: f64| {
+            let part = k / count;
+            let [x, y, z] = [x + part * (u - x), y + part * (v - y), z + part * (w - z)];
+            [x.floor() as i64, y.floor() as i64, z.floor() as i64]
+        };
+        let (mut last, mut k) = (key(cell(0.0)), 0.0);
         // The last point is of this line already: the line becomes longer.
         let mut longer = false;
-        let count = ((to.at - from.at).amax() / self.cell).ceil().max(1.0);
-        for k in 1..=count as usize {
-            let next = from.towards(&to, k as f64 / count);
-            let next = (next, self.cell(&next.at));
-            if next.1 != last.1 {
-                // What runs along a stroke is no new one.
-                let free = self.drawing || !self.is_covered_near(next.1);
-                let new = free && self.covered.insert(next.1);
-                if new && !self.drawing {
-                    self.strokes.push(vec![last.0]);
-                    longer = false;
-                }
-                if let Some(stroke) = self.strokes.last_mut().filter(|_| new || self.drawing) {
-                    if longer {
-                        stroke.pop();
-                    }
-                    stroke.push(next.0);
-                    longer = true;
-                }
-                self.drawing = new;
+        while k < count {
+            let before = k;
+            // Beside a stroke nothing is missed from one cell to the next but one.
+            k = count.min(k + if self.drawing { 1.0 } else { 2.0 });
+            let here = cell(k);
+            let number = key(here);
+            if number == last {
+                continue;
             }
-            last = next;
+            last = number;
+            // What runs along a stroke is no new one.
+            let new = match self.drawing {
+                true => !self.covered.contains(&number),
+                false => !self.beside.contains(&number),
+            };
+            if new && !self.drawing {
+                self.strokes.push(vec![from.towards(&to, before / count)]);
+                longer = false;
+            }
+            if let Some(stroke) = self.strokes.last_mut().filter(|_| new || self.drawing) {
+                if longer {
+                    stroke.pop();
+                }
+                stroke.push(from.towards(&to, k / count));
+                longer = true;
+            }
+            if new {
+                self.cover(here);
+            }
+            self.drawing = new;
         }
+    }
+
+    fn cover(&mut self, [x, y, z]: [i64; 3]) {
+        self.covered.insert(key([x, y, z]));
+        let step = |k: i64| k % 3 - 1;
+        let beside = (0..27).map(|k| {
+            key([
+                x.wrapping_add(step(k)),
+                y.wrapping_add(step(k / 3)),
+                z.wrapping_add(step(k / 9)),
+            ])
+        });
+        self.beside.extend(beside);
     }
 
     /// Makes cells larger, and draws all again.
     fn coarsen(&mut self, cell: f64) {
         self.cell = cell;
         self.covered.clear();
+        self.beside.clear();
         let (end, drawing) = (self.end, self.drawing);
         for stroke in core::mem::take(&mut self.strokes) {
             self.leave_off();
             stroke.into_iter().for_each(|point| self.draw_to(point));
         }
         (self.end, self.drawing) = (end, drawing && self.drawing);
+    }
+}
+
+/// Numbers of cells.
+type Cells = HashSet<u64, BuildHasherDefault<Spread>>;
+
+/// The number of a cell, which is unique among those of a box with so few along an edge.
+fn key([x, y, z]: [i64; 3]) -> u64 {
+    const BITS: u32 = 21;
+    const PART: u64 = (1 << BITS) - 1;
+    x as u64 & PART | (y as u64 & PART) << BITS | (z as u64 & PART) << (2 * BITS)
+}
+
+/// Spreads numbers of cells, which nobody chooses so that they meet, by the golden ratio (Knuth 1973).
+#[derive(Clone, Copy, Default)]
+struct Spread(u64);
+
+impl Hasher for Spread {
+    fn write_u64(&mut self, number: u64) {
+        let product = u128::from(number) * 0x9e37_79b9_7f4a_7c15;
+        self.0 = product as u64 ^ (product >> 64) as u64;
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        bytes
+            .iter()
+            .for_each(|byte| self.write_u64(self.0 ^ u64::from(*byte)));
+    }
+
+    fn finish(&self) -> u64 {
+        self.0
     }
 }
 
@@ -265,6 +315,26 @@ mod tests {
         });
         let gap = first.expect("a stroke up to the gap");
         assert!((gap - 0.2 * period).abs() < 2e-3 * period, "{gap}");
+    }
+
+    /// A spiral that grows by a thousandth of a cell with every round is drawn to its end.
+    #[test]
+    fn a_path_that_creeps_outward_is_drawn() {
+        let mut paths = [Path::default()];
+        let radius = |time: f64| 0.5 + 1e-6 * time;
+        let steps = (0..=40_000).map(|k| 0.5 * f64::from(k));
+        follow(&mut paths, steps, &mut |time| {
+            let (sin, cos) = time.sin_cos();
+            vec![radius(time) * Vector::new(0.0, cos, sin)]
+        });
+        let points = || paths[0].strokes.iter().flatten();
+        for part in 0..5 {
+            let far = radius(4e3 * f64::from(part));
+            let nearest = points().map(|point| (point.at.norm() - far).abs());
+            let nearest = nearest.fold(f64::MAX, f64::min);
+            assert!(nearest < 2.0 * paths[0].cell, "{far}: {nearest}");
+        }
+        assert!(points().count() < 30_000, "{}", points().count());
     }
 
     /// A field is covered line by line, and again and again: what is kept has a bound.
