@@ -2,6 +2,7 @@
 
 use crate::drawing::Drawing;
 use crate::drawn::{self, Pictures};
+use crate::number::significant;
 use crate::outcome::pieces::PIECE;
 use crate::outcome::{Outcome, book_times, equal};
 use crate::path::Path;
@@ -9,6 +10,7 @@ use crate::request::{Refusal, Request};
 use crate::scene::Scene;
 use crate::space::Space;
 use lagrange_core::__private::declaration::Declaration;
+use lagrange_core::error::Shortest;
 use lagrange_core::prelude::*;
 
 /// A run to be looked at.
@@ -21,6 +23,8 @@ pub struct Film {
     pub spaces: Vec<Space>,
     /// The paths that are drawn, in the order of their shapes or solids.
     pub paths: Vec<Path>,
+    /// What is no finite number at some sample, so that it is not drawn there, and the time of the first of these, s.
+    pub nowhere: Vec<(&'static str, f64)>,
     /// Time, s, and the energy book from the beginning to it; empty if it could not be drawn up.
     pub books: Vec<(f64, Ledger)>,
     /// Largest relative residual of what has to hold (constraints, closed contacts, slips that stick) at any sample; `None` if
@@ -44,6 +48,23 @@ impl dyn Scene + '_ {
         let beginning = self.beginning(request)?;
         let reel = self.in_pieces(beginning, request, bytes, instants, reel, Reel::join)?;
         Ok(reel.film())
+    }
+}
+
+impl Film {
+    /// What is not drawn somewhere, and why, if there is something.
+    pub fn not_drawn(&self) -> Option<String> {
+        let told = |(what, first): &(&str, f64)| {
+            format!("`{what}` at t = {} s", Shortest(significant(*first)))
+        };
+        let told: Vec<String> = self.nowhere.iter().map(told).collect();
+        let sentence = || {
+            format!(
+                "No finite place or size: {}. What leaves its domain is not drawn there.",
+                told.join(", ")
+            )
+        };
+        (!told.is_empty()).then(sentence)
     }
 }
 
@@ -96,11 +117,16 @@ impl Reel {
     /// Draws what is kept.
     pub(crate) fn film(self) -> Film {
         let mut outcome = self.outcome;
-        let Pictures { drawings, spaces } = drawn::pictures(self.declaration, &outcome);
+        let Pictures {
+            drawings,
+            spaces,
+            nowhere,
+        } = drawn::pictures(self.declaration, &outcome);
         Film {
             drawings,
             spaces,
             paths: self.paths,
+            nowhere,
             books: books(&mut outcome),
             drift: self.drift,
             outcome,

@@ -103,32 +103,31 @@ impl Reel {
                 continue;
             }
             let elements = places.iter();
-            let elements = elements.filter_map(|place| element::mark(mark, *place, height));
-            self.moving(&elements.collect::<Vec<_>>(), "", out);
+            let elements = elements.map(|place| element::mark(mark, *place, height));
+            self.at_times(&elements.collect::<Vec<_>>(), out);
         }
         let arrows: Vec<Vec<Seen>> = places.iter().map(|place| panel.arrows(*place)).collect();
         for i in 0..arrows.first().map_or(0, Vec::len) {
-            let dots = arrows
-                .iter()
-                .filter_map(|arrows| element::dot(i, &arrows[i]));
-            let dots: Vec<Element> = dots.collect();
-            if !dots.is_empty() {
-                self.moving(&dots, "", out);
-            }
+            let dots = arrows.iter().map(|arrows| element::dot(i, &arrows[i]));
+            self.at_times(&dots.collect::<Vec<_>>(), out);
             let all = arrows.iter().map(|arrows| element::arrow(i, &arrows[i]));
-            let (arrows, names): (Vec<Element>, Vec<Option<Element>>) = all.unzip();
-            self.moving(&arrows, "", out);
-            let seen = self.seen(&names.iter().map(Option::is_some).collect::<Vec<_>>());
-            // Where there is no name it waits at the next place that it has, or the last.
-            let mut next = names.iter().flatten().next_back().cloned();
-            let mut placed: Vec<Element> = Vec::new();
-            for name in names.iter().rev() {
-                next = name.clone().or(next);
-                placed.extend(next.clone());
-            }
-            placed.reverse();
-            self.moving(&placed, &seen, out);
+            let (arrows, names): (Vec<_>, Vec<_>) = all.map(|[arrow, name]| (arrow, name)).unzip();
+            self.at_times(&arrows, out);
+            self.at_times(&names, out);
         }
+    }
+
+    /// An element that is not always there: where it is not it waits, unseen, at the next place that it has, or the last.
+    fn at_times(&self, elements: &[Option<Element>], out: &mut String) {
+        let seen = self.seen(&elements.iter().map(Option::is_some).collect::<Vec<_>>());
+        let mut next = elements.iter().flatten().next_back().cloned();
+        let mut placed: Vec<Element> = Vec::new();
+        for element in elements.iter().rev() {
+            next = element.clone().or(next);
+            placed.extend(next.clone());
+        }
+        placed.reverse();
+        self.moving(&placed, &seen, out);
     }
 
     /// Solids in space: a picture for every instant, as their order from the back to the front changes.

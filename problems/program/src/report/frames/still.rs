@@ -80,8 +80,8 @@ pub(super) fn arrows(panel: &Place, time: f64, out: &mut String) {
     let place = picture::Place::of(time, &panel.times);
     for (i, arrow) in panel.arrows(place).iter().enumerate() {
         let dot = element::dot(i, arrow);
-        let (arrow, name) = element::arrow(i, arrow);
-        put([dot, Some(arrow), name].into_iter().flatten(), out);
+        let [arrow, name] = element::arrow(i, arrow);
+        put([dot, arrow, name].into_iter().flatten(), out);
     }
 }
 

@@ -36,7 +36,7 @@ struct Run {
     #[serde(skip_serializing_if = "Option::is_none")]
     space: Option<Stage>,
     plots: Vec<Plot>,
-    /// That there is no room for some plots, curves and coordinates.
+    /// That there is no room for some plots, curves and coordinates, and what is drawn nowhere at times.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     left_out: Vec<String>,
     phase: Vec<Portrait>,
@@ -112,6 +112,7 @@ fn run(
     let left_out = [forces, works, coordinates].into_iter();
     let left_out = left_out.filter(|(_, count)| *count > 0);
     let left_out = left_out.map(|(what, count)| format!("{what} that are left out: {count}."));
+    let left_out = shown.film.not_drawn().into_iter().chain(left_out);
     Run {
         title: shown.title.clone(),
         scene: outcome.scene,

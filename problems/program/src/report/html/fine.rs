@@ -127,7 +127,7 @@ mod tests {
 
     #[test]
     fn a_slow_motion_is_drawn_through_the_samples() {
-        let film = film(2.0);
+        let film = film(0.3);
         let (plots, _) = plots(&film);
         let curves = plots.iter().flat_map(|plot| &plot.curves);
         assert!(curves.map(|curve| &curve.fine).all(Option::is_none));

@@ -36,7 +36,12 @@ function picture(stage, run) {
       });
       return (n, where) => set(shape, { d: strokes.map((stroke) => stroke(at(run.time, where))).join("") });
     }
-    return (n) => forms[mark.form](shape, n);
+    return (n) => {
+      // What is nowhere is not drawn.
+      const there = !n.includes(null);
+      shape.style.display = there ? "" : "none";
+      if (there) forms[mark.form](shape, n);
+    };
   });
 
   // The window that goes along, and the window that is seen.
@@ -79,12 +84,14 @@ function picture(stage, run) {
     name.textContent = arrow.name;
     const value = entry(legend, arrow.impulse ? arrow.name : `force ${arrow.name}`, colour(i));
     return (where, taken) => {
-      const [x1, y1, dx, dy] = arrow.numbers.map((column) => at(column, where)), [x2, y2] = [x1 + dx * shrunk(), y1 + dy * shrunk()];
+      const numbers = arrow.numbers.map((column) => at(column, where)), there = !numbers.includes(null);
+      const [x1, y1, dx, dy] = numbers, [x2, y2] = [x1 + dx * shrunk(), y1 + dy * shrunk()];
       value.textContent = `${digits(at(arrow.size, where))} ${arrow.impulse ? "N s" : "N"}`;
       const length = Math.hypot(x2 - x1, y2 - y1);
-      shape.style.display = length < 2 * shrunk() ? "none" : "";
+      const long = there && length >= 2 * shrunk();
+      shape.style.display = long ? "" : "none";
       name.style.display = "none";
-      if (length < 2 * shrunk()) return;
+      if (!long) return;
       const [ux, uy] = [(x2 - x1) / length, (y2 - y1) / length];
       const thick = letter / 16, tip = Math.min(0.5 * length, 12 * thick), neck = length - tip;
       const corners = [[0, thick], [neck, thick], [neck, 0.45 * tip], [length, 0], [neck, -0.45 * tip], [neck, -thick], [0, -thick]];

@@ -137,7 +137,9 @@ pub(super) fn marks(film: &Film, frame: &Frame) -> Vec<Mark> {
                 let longest = lengths.fold(0.0, f64::max);
                 add("rod", spring(frame, longest), &|shape| {
                     let numbers = stretched(shape, before.get(), frame);
-                    if let [_, _, angle, _] = numbers[..] {
+                    if let [_, _, angle, _] = numbers[..]
+                        && angle.is_finite()
+                    {
                         before.set(angle);
                     }
                     numbers

@@ -13,6 +13,7 @@ mod stage;
 mod view;
 
 use crate::film::Film;
+use crate::number::significant;
 pub(crate) use arrow::{Arrow, label, outline};
 pub(crate) use column::{Column, Place};
 use frame::{Frame, largest};
@@ -116,13 +117,17 @@ fn finely(time: f64) -> f64 {
     format!("{time:.8e}").parse().unwrap_or(time)
 }
 
-/// To hundredths of a unit, which nobody sees; what is not finite is 0.
+/// To hundredths of a unit, which nobody sees.
 fn hundredths(x: f64) -> f64 {
-    let rounded = (x * 100.0).round() / 100.0;
-    if rounded.is_finite() {
-        rounded + 0.0
+    (x * 100.0).round() / 100.0 + 0.0
+}
+
+/// The size of a force, with the digits that are told; none where it is no number.
+fn strength(size: f64) -> f64 {
+    if size.is_finite() {
+        significant(size)
     } else {
-        0.0
+        f64::NAN
     }
 }
 
@@ -135,7 +140,6 @@ mod tests {
         let texts = [0.3, 0.7, 2.0, 1234.0, 3e-5, 2e7].map(|x| short(nice(x)));
         assert_eq!(texts, ["0.2", "0.5", "2", "1000", "2e-5", "2e7"]);
         assert_eq!(nice(0.0), 1.0);
-        assert_eq!(hundredths(f64::NAN), 0.0);
         assert_eq!(hundredths(-0.001).to_string(), "0");
     }
 }

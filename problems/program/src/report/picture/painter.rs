@@ -93,6 +93,9 @@ impl Painter {
             sample: 0,
             part: 0.0,
         };
+        if !is_somewhere(body, start) {
+            return None;
+        }
         let turn = turn(body, start);
         let [x, y, z] = [Vector::x(), Vector::y(), Vector::z()].map(|axis| turn * axis);
         let origin = joints(body, start)[0];
@@ -132,6 +135,7 @@ impl Painter {
     /// What is in front of the paths: solids that move, and walls around them.
     pub fn above(&self, place: Place, out: &mut String) {
         let bowls = self.stage.bodies.iter().filter(|body| body.kind == "bowl");
+        let bowls = bowls.filter(|bowl| is_somewhere(bowl, place));
         let walls = bowls.map(|bowl| self.wall(joints(bowl, place)[0], bowl.size[0]));
         let mut pieces = self.pieces(place, moves);
         pieces.extend(walls);
@@ -139,7 +143,9 @@ impl Painter {
     }
 
     fn pieces(&self, place: Place, which: impl Fn(&Body) -> bool) -> Vec<Piece> {
-        let solid = |body: &&Body| !["ground", "trace"].contains(&body.kind) && which(body);
+        let solid = |body: &&Body| {
+            !["ground", "trace"].contains(&body.kind) && which(body) && is_somewhere(body, place)
+        };
         let bodies = self.stage.bodies.iter().filter(solid);
         bodies.map(|body| self.piece(body, place)).collect()
     }
@@ -444,6 +450,14 @@ fn moves(body: &Body) -> bool {
     body.places
         .iter()
         .any(|column| matches!(column, Column::Varying(_)))
+}
+
+/// Whether a body has a place, a size and an attitude.
+fn is_somewhere(body: &Body, place: Place) -> bool {
+    let columns = body.places.iter().chain(&body.turn);
+    let numbers = columns.map(|column| column.at(place));
+    let mut numbers = numbers.chain(body.size.iter().copied());
+    numbers.all(f64::is_finite)
 }
 
 /// Where a body's origin or joints are.

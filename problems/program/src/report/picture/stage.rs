@@ -5,7 +5,7 @@
 use super::arrow::is_false;
 use super::frame::{self, Newtons, largest};
 use super::impulse::{self, Rows};
-use super::{Column, finely};
+use super::{Column, finely, strength};
 use crate::drawing::Arrow;
 use crate::film::Film;
 use crate::number::significant;
@@ -166,12 +166,7 @@ impl Box3 {
 /// To a hundred-thousandth of the size of all.
 fn near(x: f64, size: f64) -> f64 {
     let digits = 10_f64.powf((5.0 - size.log10()).floor());
-    let rounded = (x * digits).round() / digits;
-    if rounded.is_finite() {
-        rounded + 0.0
-    } else {
-        0.0
-    }
+    (x * digits).round() / digits + 0.0
 }
 
 fn bodies(film: &Film, size: f64) -> Vec<Body> {
@@ -223,6 +218,9 @@ fn turns<'a>(solids: impl Iterator<Item = &'a Solid>) -> Vec<UnitQuaternion<f64>
     let mut before: Option<Vector> = None;
     let attitude = |solid: &Solid| match solid {
         Solid::RolledBall(_, _, angles) => {
+            if !angles.iter().all(|angle| angle.is_finite()) {
+                return Some(UnitQuaternion::from_scaled_axis(*angles));
+            }
             let more = before.map_or(Vector::zeros(), |before| angles - before);
             before = Some(*angles);
             turn = UnitQuaternion::from_scaled_axis(more) * turn;
@@ -318,7 +316,7 @@ fn arrows(film: &Film, kind: Kind, newtons: &Newtons, size: f64) -> Vec<Thrust> 
                 Kind::Impulse => format!("impulse of {}", arrow.name),
             },
             impulse: kind == Kind::Impulse,
-            size: Column::of(thrusts.iter().map(|(_, force)| significant(force.norm()))),
+            size: Column::of(thrusts.iter().map(|(_, force)| strength(force.norm()))),
             numbers: at.chain(along).collect(),
         })
     };
