@@ -13,8 +13,8 @@ pub(super) struct Fine {
     values: Vec<Option<f64>>,
 }
 
-/// Part of the height of a plot by which a curve may be off without being seen to be.
-const UNSEEN: f64 = 0.01;
+/// Part of the height of a plot by which a curve may be off without being seen to be: about the width of its stroke.
+const UNSEEN: f64 = 0.012;
 
 /// A number over time as it is drawn: lines through points.
 pub(super) type Lines = Vec<Vec<(f64, f64)>>;
@@ -48,16 +48,41 @@ pub(super) fn fine<'v>(times: &[f64], curves: &[(&'v [Option<f64>], Lines)]) -> 
         lines.iter().flatten().any(off)
     };
     let needed = span > CONSTANT * size && curves.iter().any(missed);
-    let fine = |(_, lines): &(&[Option<f64>], Lines)| needed.then(|| Fine::of(lines));
+    let fine = |(_, lines): &(&[Option<f64>], Lines)| needed.then(|| Fine::of(lines, unseen));
     curves.iter().map(fine).collect()
 }
 
+/// The points of a line without those that it passes, straight from the last to the next one that is kept, at no more than `off`.
+fn straightened(line: &[(f64, f64)], off: f64) -> Vec<(f64, f64)> {
+    const ANY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+    let mut kept: Vec<(f64, f64)> = line.first().copied().into_iter().collect();
+    // Slopes with which all points after the last one that is kept are passed.
+    let mut slopes = ANY;
+    for pair in line.windows(2) {
+        let (before, (time, value)) = (pair[0], pair[1]);
+        let slope = |(from, start): (f64, f64), off: f64| (value + off - start) / (time - from);
+        let passes = |slopes: [f64; 2], from| (slopes[0]..=slopes[1]).contains(&slope(from, 0.0));
+        let mut from = kept[kept.len() - 1];
+        if !passes(slopes, from) {
+            kept.push(before);
+            (from, slopes) = (before, ANY);
+        }
+        slopes = [
+            slopes[0].max(slope(from, -off)),
+            slopes[1].min(slope(from, off)),
+        ];
+    }
+    kept.extend(line.get(1..).and_then(<[_]>::last));
+    kept
+}
+
 impl Fine {
-    /// Lines one after the other, with no value between them.
-    fn of(lines: &Lines) -> Self {
+    /// Lines one after the other, with no value between them, which may be off by so much.
+    fn of(lines: &Lines, off: f64) -> Self {
         let points = lines.iter().flat_map(|line| {
             let end = line.last().map(|(time, _)| (*time, None));
-            let points = line.iter().map(|(time, value)| (*time, Some(*value)));
+            let points = straightened(line, off).into_iter();
+            let points = points.map(|(time, value)| (time, Some(value)));
             points.chain(end)
         });
         let (times, values): (Vec<f64>, Vec<Option<f64>>) = points.unzip();
