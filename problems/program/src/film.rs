@@ -115,7 +115,8 @@ impl Reel {
     }
 
     /// Draws what is kept.
-    pub(crate) fn film(self) -> Film {
+    pub(crate) fn film(mut self) -> Film {
+        self.paths.iter_mut().for_each(Path::straighten);
         let mut outcome = self.outcome;
         let Pictures {
             drawings,

@@ -104,6 +104,15 @@ impl Path {
         }
     }
 
+    /// Leaves out the points of its strokes that lie on the straight way from one to a later one.
+    pub(crate) fn straighten(&mut self) {
+        for stroke in &mut self.strokes {
+            let mut kept = vec![stroke[0]];
+            straightened(stroke, self.cell, &mut kept);
+            *stroke = kept;
+        }
+    }
+
     /// Whether a picture shows no bend at a point between two others.
     fn is_straight(&self, [from, between, to]: [&Point; 3]) -> bool {
         let known = [from, between, to].map(Point::is_somewhere);
@@ -191,6 +200,25 @@ impl Path {
             stroke.into_iter().for_each(|point| self.draw_to(point));
         }
         (self.end, self.drawing) = (end, drawing && self.drawing);
+    }
+}
+
+/// The points of a stroke after its first without which it would be off by more than this (Douglas & Peucker 1973).
+fn straightened(stroke: &[Point], off: f64, kept: &mut Vec<Point>) {
+    let [first, inner @ .., last] = stroke else {
+        return;
+    };
+    let away = |point: &Point| {
+        let part = (point.time - first.time) / (last.time - first.time);
+        (point.at - first.towards(last, part).at).amax()
+    };
+    let distances = inner.iter().map(away).enumerate();
+    match distances.max_by(|a, b| a.1.total_cmp(&b.1)) {
+        Some((i, distance)) if distance > off => {
+            straightened(&stroke[..=i + 1], off, kept);
+            straightened(&stroke[i + 1..], off, kept);
+        }
+        _ => kept.push(*last),
     }
 }
 
