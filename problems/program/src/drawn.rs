@@ -3,9 +3,11 @@
 //! They are read from the declaration as it was written, by the evaluator of certificates; the run knows nothing of them.
 
 use crate::drawing::{Arrow, Drawing, Shape};
-use crate::outcome::{Outcome, Sample, forces};
+use crate::outcome::{Outcome, forces};
+use crate::path::{Path, follow};
 use crate::space::{Pose, Solid, Space, Vector};
 use lagrange_core::__private::declaration::{Declaration, Draw, Evaluator, Form, Inputs, Turn};
+use lagrange_core::prelude::*;
 
 /// The pictures of all samples: in a plane, or in space.
 #[derive(Default)]
@@ -14,6 +16,8 @@ pub(crate) struct Pictures {
     pub drawings: Vec<Drawing>,
     /// One for each sample, if the places have three.
     pub spaces: Vec<Space>,
+    /// What is no finite number at some sample, so that it is not drawn there, and the time of the first of these, s.
+    pub nowhere: Vec<(&'static str, f64)>,
 }
 
 /// The pictures of a run.
@@ -27,22 +31,75 @@ pub(crate) fn pictures(declaration: &'static Declaration, outcome: &Outcome) -> 
         return Pictures::default();
     }
     let mut instant = Instant::new(declaration, &outcome.parameters);
-    let samples = outcome.samples.iter();
+    let (mut drawings, mut spaces) = (Vec::new(), Vec::new());
+    let mut nowhere: Vec<Option<f64>> = vec![None; draws.len()];
     let places = draws.iter().flat_map(|draw| draw.places);
-    match places.map(|place| place.len()).max() {
-        Some(3) => Pictures {
-            spaces: samples
-                .map(|sample| instant.at(sample, &draws).space())
-                .collect(),
-            ..Pictures::default()
-        },
-        _ => Pictures {
-            drawings: samples
-                .map(|sample| instant.at(sample, &draws).drawing())
-                .collect(),
-            ..Pictures::default()
-        },
+    let in_space = places.map(|place| place.len()).max() == Some(3);
+    for sample in &outcome.samples {
+        let moment = instant.at((sample.time, &sample.state, &sample.forces), &draws);
+        for (draw, first) in draws.iter().zip(&mut nowhere) {
+            let missing = !moment.is_somewhere(draw);
+            *first = first.or(missing.then_some(sample.time));
+        }
+        match in_space {
+            true => spaces.push(moment.space()),
+            false => drawings.push(moment.drawing()),
+        }
     }
+    let nowhere = draws.iter().zip(nowhere);
+    let nowhere = nowhere.filter_map(|(draw, first)| Some((called(draw), first?)));
+    Pictures {
+        drawings,
+        spaces,
+        nowhere: nowhere.collect(),
+    }
+}
+
+/// What is written in `draw(…)`, or the name of an arrow.
+fn called(draw: &Draw) -> &'static str {
+    match draw.form {
+        Form::Floor => "floor",
+        Form::Ground => "ground",
+        Form::Shell => "shell",
+        Form::Bowl => "bowl",
+        Form::Disc => "disc",
+        Form::Polygon => "polygon",
+        Form::Box => "box",
+        Form::Sphere => "sphere",
+        Form::HalfEllipsoid => "half_ellipsoid",
+        Form::Rod => "rod",
+        Form::Rope => "rope",
+        Form::Spring => "spring",
+        Form::Mass => "mass",
+        Form::Pivot => "pivot",
+        Form::Path => "path",
+        Form::Arrow => draw.name,
+    }
+}
+
+/// Where what is drawn with a path has been in a motion.
+pub(crate) fn paths(trajectory: &Trajectory) -> Vec<Path> {
+    let declaration = trajectory.declaration();
+    let draws = declaration.draws.iter();
+    let draws: Vec<&Draw> = draws.filter(|draw| draw.form == Form::Path).collect();
+    let mut paths = vec![Path::default(); draws.len()];
+    let parameters = 0..trajectory.description().parameters.len();
+    let parameters: Vec<f64> = parameters.map(|i| trajectory.parameter(i)).collect();
+    let mut instant = Instant::new(declaration, &parameters);
+    let mut sampler = trajectory.sampler();
+    let mut at = |time: f64| match sampler.at(time) {
+        Ok(known) => {
+            let moment = instant.at((time, &known.state, &known.forces), &draws);
+            let place = |draw: &&Draw| moment.list(draw.places[0]).into();
+            draws.iter().map(place).collect()
+        }
+        Err(_) => vec![Vector::repeat(f64::NAN); draws.len()],
+    };
+    if !draws.is_empty() {
+        let times = trajectory.step_times().chain([trajectory.last_time()]);
+        follow(&mut paths, times, &mut at);
+    }
+    paths
 }
 
 /// Whether all items whose forces an arrow shows are in the run.
@@ -71,16 +128,21 @@ impl Instant {
         }
     }
 
-    fn at<'a>(&'a mut self, sample: &'a Sample, draws: &'a [&'a Draw]) -> Moment<'a> {
-        let still = vec![0.0; sample.state.q.len()];
+    /// At a time, in a state, with these forces along the rows.
+    fn at<'a>(
+        &'a mut self,
+        (time, state, forces): (f64, &'a State<f64>, &'a Vec<f64>),
+        draws: &'a [&'a Draw],
+    ) -> Moment<'a> {
+        let still = vec![0.0; state.q.len()];
         let mut loads = vec![0.0; self.declaration.forces.len()];
         let mut evaluate = |loads: &[f64]| {
             self.evaluator.evaluate(Inputs {
-                time: sample.time,
-                q: &sample.state.q,
-                v: &sample.state.v,
+                time,
+                q: &state.q,
+                v: &state.v,
                 acceleration: &still,
-                forces: &sample.forces,
+                forces,
                 loads,
             });
             let values = self.declaration.forces.iter();
@@ -95,7 +157,7 @@ impl Instant {
         let _: Vec<f64> = evaluate(&loads);
         Moment {
             evaluator: &self.evaluator,
-            q: &sample.state.q,
+            q: &state.q,
             draws,
         }
     }
@@ -109,8 +171,30 @@ struct Moment<'a> {
 }
 
 impl Moment<'_> {
+    /// A value; what is infinite is as little of a place or size as what is no number.
     fn value(&self, value: usize) -> f64 {
-        self.evaluator.value(value)
+        let value = self.evaluator.value(value);
+        if value.is_finite() { value } else { f64::NAN }
+    }
+
+    /// As many sizes as fit: none is negative.
+    fn sizes<const D: usize>(&self, draw: &Draw) -> [f64; D] {
+        let sizes: [f64; D] = self.list(draw.size);
+        sizes.map(|size| if size < 0.0 { f64::NAN } else { size })
+    }
+
+    /// Whether all that is said of something is a finite number.
+    fn is_somewhere(&self, draw: &Draw) -> bool {
+        let turn = match &draw.turn {
+            Turn::Angle(angle) => core::slice::from_ref(angle),
+            Turn::About(values) | Turn::Rolled(values) => values,
+            Turn::None | Turn::Attitude(_) => &[],
+        };
+        let slopes = draw.parts.iter().flat_map(|(_, slope)| *slope);
+        let places = draw.places.iter().copied().flatten();
+        let mut values = places.chain(turn).chain(draw.applied).chain(slopes);
+        let sizes: [f64; 3] = self.sizes(draw);
+        values.all(|value| self.value(*value).is_finite()) && sizes.iter().all(|x| x.is_finite())
     }
 
     /// As many values as fit; the others are 0.
@@ -148,7 +232,7 @@ impl Moment<'_> {
     fn shape(&self, draw: &Draw) -> Option<Shape> {
         let places: Vec<[f64; 2]> = self.places(draw);
         let at = places[0];
-        let [size, height] = self.list(draw.size);
+        let [size, height] = self.sizes(draw);
         let angle = match draw.turn {
             Turn::Angle(angle) => self.value(angle),
             _ => 0.0,
@@ -182,7 +266,7 @@ impl Moment<'_> {
     fn solid(&self, draw: &Draw) -> Option<Solid> {
         let places: Vec<Vector> = self.places(draw).into_iter().map(Vector::from).collect();
         let at = places[0];
-        let [x, y, z] = self.list(draw.size);
+        let [x, y, z] = self.sizes(draw);
         let pose = self.pose(at, draw.turn);
         Some(match (draw.form, draw.turn) {
             (Form::Floor, _) => Solid::Ground(Pose {

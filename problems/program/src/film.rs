@@ -2,12 +2,15 @@
 
 use crate::drawing::Drawing;
 use crate::drawn::{self, Pictures};
+use crate::number::significant;
 use crate::outcome::pieces::PIECE;
-use crate::outcome::{Outcome, equal};
+use crate::outcome::{Outcome, book_times, equal};
+use crate::path::Path;
 use crate::request::{Refusal, Request};
 use crate::scene::Scene;
 use crate::space::Space;
 use lagrange_core::__private::declaration::Declaration;
+use lagrange_core::error::Shortest;
 use lagrange_core::prelude::*;
 
 /// A run to be looked at.
@@ -18,6 +21,10 @@ pub struct Film {
     pub drawings: Vec<Drawing>,
     /// The same for a scene in space.
     pub spaces: Vec<Space>,
+    /// The paths that are drawn, in the order of their shapes or solids.
+    pub paths: Vec<Path>,
+    /// What is no finite number at some sample, so that it is not drawn there, and the time of the first of these, s.
+    pub nowhere: Vec<(&'static str, f64)>,
     /// Time, s, and the energy book from the beginning to it; empty if it could not be drawn up.
     pub books: Vec<(f64, Ledger)>,
     /// Largest relative residual of what has to hold (constraints, closed contacts, slips that stick) at any sample; `None` if
@@ -44,10 +51,28 @@ impl dyn Scene + '_ {
     }
 }
 
+impl Film {
+    /// What is not drawn somewhere, and why, if there is something.
+    pub fn not_drawn(&self) -> Option<String> {
+        let told = |(what, first): &(&str, f64)| {
+            format!("`{what}` at t = {} s", Shortest(significant(*first)))
+        };
+        let told: Vec<String> = self.nowhere.iter().map(told).collect();
+        let sentence = || {
+            format!(
+                "No finite place or size: {}. What leaves its domain is not drawn there.",
+                told.join(", ")
+            )
+        };
+        (!told.is_empty()).then(sentence)
+    }
+}
+
 /// What is kept of a run, or of a piece of one, to make a [`Film`] of it.
 pub(crate) struct Reel {
     outcome: Outcome,
     drift: Option<f64>,
+    paths: Vec<Path>,
     declaration: &'static Declaration,
 }
 
@@ -66,10 +91,15 @@ impl Reel {
         };
         let mut outcome = Outcome::sampled(scene, trajectory, failure, &booked, times);
         outcome.event_ledgers = Vec::new();
+        if request.plotted {
+            let times = book_times(&outcome.curve);
+            outcome.curve_ledgers = trajectory.ledgers(&times).unwrap_or_default();
+        }
         let samples = outcome.samples.iter();
         let instants = samples.map(|sample| (sample.time, &sample.mode, &sample.state));
         Self {
             drift: drift(trajectory, instants),
+            paths: drawn::paths(trajectory),
             declaration: trajectory.declaration(),
             outcome,
         }
@@ -79,15 +109,25 @@ impl Reel {
     pub(crate) fn join(&mut self, next: Self) {
         self.outcome.join(next.outcome);
         self.drift = self.drift.into_iter().chain(next.drift).reduce(f64::max);
+        for (path, next) in self.paths.iter_mut().zip(&next.paths) {
+            path.join(next);
+        }
     }
 
     /// Draws what is kept.
-    pub(crate) fn film(self) -> Film {
+    pub(crate) fn film(mut self) -> Film {
+        self.paths.iter_mut().for_each(Path::straighten);
         let mut outcome = self.outcome;
-        let Pictures { drawings, spaces } = drawn::pictures(self.declaration, &outcome);
+        let Pictures {
+            drawings,
+            spaces,
+            nowhere,
+        } = drawn::pictures(self.declaration, &outcome);
         Film {
             drawings,
             spaces,
+            paths: self.paths,
+            nowhere,
             books: books(&mut outcome),
             drift: self.drift,
             outcome,

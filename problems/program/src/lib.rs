@@ -19,6 +19,7 @@ pub mod names;
 pub mod notation;
 pub mod number;
 pub mod outcome;
+pub mod path;
 mod program;
 pub mod progress;
 mod quantity;

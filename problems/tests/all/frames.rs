@@ -172,3 +172,131 @@ fn what_makes_no_sense_is_refused() {
         );
     }
 }
+
+/// What is drawn of paths in a picture: the points of every stroke.
+fn strokes(picture: &str) -> Vec<Vec<[f64; 2]>> {
+    let lines = picture.split("class=\"trace\" d=\"").skip(1);
+    let lines = lines.filter_map(|rest| rest.split('"').next());
+    let point = |text: &str| {
+        let (x, y) = text.split_once(' ').expect("a point");
+        [x, y].map(|number| number.parse().expect("a number"))
+    };
+    let strokes = lines.flat_map(|line| line.split('M').skip(1));
+    strokes
+        .map(|stroke| stroke.split('L').map(point).collect())
+        .collect()
+}
+
+/// A charge in a magnetic field goes round a circle of radius v m / (q B) about a point beside its start, 477 times between 300 samples.
+#[test]
+fn the_path_of_a_circle_is_round_however_often_it_is_gone_round() {
+    let declared = "parameters(m = 2, v = 3, b = 120), coordinates(x, y),
+        kinetic = m/2*(der(x)^2 + der(y)^2) + b/2*(x*der(y) - y*der(x)), start(go: x = 0.3, der(y) = v),
+        draw(path: (x, y)), draw(mass: (x, y)), until = 50,";
+    let scene = lagrange_program::file::scene("charge.lagrange", declared).expect("a declaration");
+    let request = Request {
+        samples: 300,
+        ..Request::default()
+    };
+    let film = scene.film(&request).expect("a film");
+    let panels = [Panel {
+        title: "charge",
+        film: &film,
+    }];
+    let clock = Clock::new(&panels, 5.0, None).expect("a clock");
+    let last = stills(&panels, &clock).last().expect("a frame");
+    for picture in [last, animated(&panels, &clock)] {
+        let strokes = strokes(&picture);
+        let ends = |k: usize| {
+            let values = strokes.iter().flatten().map(|point| point[k]);
+            let least = values.clone().fold(f64::INFINITY, f64::min);
+            [least, values.fold(f64::NEG_INFINITY, f64::max)]
+        };
+        let ([left, right], [top, bottom]) = (ends(0), ends(1));
+        let radius = 0.5 * (right - left);
+        // The whole is 1000 wide, with some air around.
+        assert!((400.0..500.0).contains(&radius), "{radius}");
+        let mut seen = [false; 72];
+        for pair in strokes.iter().flat_map(|stroke| stroke.windows(2)) {
+            for part in [0.0, 0.5, 1.0] {
+                let at = |k: usize| pair[0][k] + part * (pair[1][k] - pair[0][k]);
+                let (x, y) = (at(0) - 0.5 * (left + right), at(1) - 0.5 * (top + bottom));
+                assert!((x.hypot(y) - radius).abs() < 1.0, "{x} {y} {radius}");
+                seen[((y.atan2(x).to_degrees() + 180.0) / 5.0) as usize % 72] = true;
+            }
+        }
+        assert!(seen.iter().all(|seen| *seen), "{seen:?}");
+        let points: usize = strokes.iter().map(Vec::len).sum();
+        assert!(points < 2000, "{points}");
+    }
+}
+
+/// A length that shrinks evenly, so that its root ends after 1 s and a radius that is as long is negative from then on.
+const SHRINKS: &str = "
+    coordinates(x),
+    kinetic = der(x)^2/2,
+    start(go: x = 1, der(x) = -1),
+    draw(disc: (0, 1), radius = x),
+    draw(path: (sqrt(x), 0)),
+    draw(rod: (0, 0) to (sqrt(x), 0)),
+    draw(arrow: (0, ln(x)) at (1, 1), name = fall),
+    until = 2,
+";
+
+#[test]
+fn what_has_no_place_is_not_drawn_and_told() {
+    let scene = lagrange_program::file::scene("shrinks.lagrange", SHRINKS).expect("a declaration");
+    let request = Request {
+        samples: 400,
+        ..Request::default()
+    };
+    let film = scene.film(&request).expect("a film");
+    let names: Vec<&str> = film.nowhere.iter().map(|(name, _)| *name).collect();
+    assert_eq!(names, ["disc", "path", "rod", "fall"]);
+    let near = |(_, first): &(&str, f64)| (first - 1.0).abs() < 0.02;
+    assert!(film.nowhere.iter().all(near), "{:?}", film.nowhere);
+    let panels = [Panel {
+        title: "shrinks",
+        film: &film,
+    }];
+    let clock = Clock {
+        instants: vec![0.5, 1.5],
+        rate: 25.0,
+    };
+    let frames: Vec<String> = stills(&panels, &clock).collect();
+    let drawn = |part: &str| [0, 1].map(|k| frames[k].matches(part).count());
+    assert_eq!(drawn("class=\"body\""), [1, 0]);
+    // The spoke of the disc, and the rod.
+    assert_eq!(drawn("class=\"rod\""), [2, 0]);
+    assert_eq!(drawn("<polygon fill"), [1, 0]);
+    // The path goes from √1 to √½, and then on to 0.
+    let [half, whole] = [0, 1].map(|k| strokes(&frames[k]).concat());
+    let long = |line: &[[f64; 2]]| line[0][0] - line[line.len() - 1][0];
+    let part = long(&half) / long(&whole);
+    assert!((part - (1.0 - 0.5_f64.sqrt())).abs() < 0.02, "{part}");
+    for picture in frames.iter().chain(&[animated(&panels, &clock)]) {
+        assert!(
+            !picture.contains("NaN") && !picture.contains("r=\"-"),
+            "{picture}"
+        );
+        assert_eq!(unclosed(picture), Vec::<&str>::new());
+    }
+}
+
+/// A picosecond.
+#[test]
+fn the_clock_of_a_short_film_has_digits() {
+    let declared = "coordinates(x), kinetic = der(x)^2/2, start(go: der(x) = 1), draw(mass: (x, 0)), until = 1e-12,";
+    let scene = lagrange_program::file::scene("short.lagrange", declared).expect("a declaration");
+    let film = scene.film(&Request::default()).expect("a film");
+    let panels = [Panel {
+        title: "short",
+        film: &film,
+    }];
+    let clock = Clock::new(&panels, 25.0, None).expect("a clock");
+    assert!(clock.instants.len() > 100, "{}", clock.instants.len());
+    let last = stills(&panels, &clock).last().expect("a frame");
+    assert!(last.contains(">t = 1.000e-12 s<"), "{last}");
+    let readings = animated(&panels, &clock);
+    assert!(readings.matches(">t = ").count() > 30, "{readings}");
+}

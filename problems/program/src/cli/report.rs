@@ -7,7 +7,7 @@ use super::shell;
 use super::terminal::{keep_what_is_done, patiently};
 use super::values::{number_of, positive};
 use super::watch::watched;
-use super::{Trouble, went_well};
+use super::{Trouble, say, went_well};
 use crate::blame;
 use crate::catalogue::Catalogue;
 use crate::format::Still;
@@ -142,6 +142,9 @@ impl Report {
         })?;
         let (runs, asked): (Vec<Shown>, Vec<Asked>) = runs.into_iter().unzip();
         self.write(&runs)?;
+        for run in &runs {
+            run.film.not_drawn().iter().for_each(|told| say(told));
+        }
         let mut ended = runs.into_iter().zip(asked);
         ended.try_for_each(|(run, asked)| went_well(run.film.outcome, asked.scene, &asked.request))
     }
@@ -276,6 +279,7 @@ impl Report {
         let until = request.until.unwrap_or(file.scene.until());
         let request = Request {
             samples: html::intervals(file.scene.description(), until, self.runs()),
+            plotted: self.form()? == Form::Html,
             progress: Some(progress.clone()),
             ..request
         };

@@ -39,11 +39,16 @@ impl Outcome {
             ..sample
         };
         self.samples.extend(samples.map(placed));
-        self.curve.retain(|sample| inner(sample));
-        let curve = next.curve.into_iter().filter(|sample| inner(sample));
+        let drawn = self.curve.iter().filter(|sample| inner(sample)).count();
+        let undrawn = next.curve.iter().filter(|s| !inner(s)).count();
+        self.curve.truncate(drawn);
+        self.curve_ledgers.truncate(drawn);
+        let curve = next.curve.into_iter().skip(undrawn);
         self.curve.extend(curve.map(placed));
         if let Some(ledger) = &self.ledger {
             let after = |piece: &Ledger| add(ledger, piece);
+            let ledgers = next.curve_ledgers.iter().skip(undrawn).map(after);
+            self.curve_ledgers.extend(ledgers);
             let ledgers = next.ledgers.iter().skip(skipped).map(after);
             self.ledgers.extend(ledgers);
             let ledgers = next.event_ledgers.iter().map(after);
@@ -53,6 +58,7 @@ impl Outcome {
         self.ledger = books.map(|(ledger, piece)| add(&ledger, &piece));
         if let Some(ledger) = &self.ledger {
             let all = self.ledgers.iter_mut().chain(&mut self.event_ledgers);
+            let all = all.chain(&mut self.curve_ledgers);
             all.for_each(|earlier| list(&mut earlier.work, &ledger.work));
         }
         let certificates = self.certificate.take().zip(next.certificate);

@@ -16,7 +16,7 @@ use lagrange_core::mode::{FrictionMode, Mode};
 use lagrange_core::prelude::*;
 use lagrange_core::simulation::Awaited;
 use lagrange_core::system::Description;
-pub(crate) use sampling::{equal, within};
+pub(crate) use sampling::{book_times, equal, within};
 
 /// Everything that happened in a run.
 pub struct Outcome {
@@ -49,6 +49,8 @@ pub struct Outcome {
     pub samples: Vec<Sample>,
     /// The same for curves: denser where the motion is too fast for the samples; empty if nothing is to be plotted.
     pub curve: Vec<Sample>,
+    /// The energy book from the beginning to each of those, if that was asked for and can be drawn up.
+    pub(crate) curve_ledgers: Vec<Ledger>,
     /// What is known beside the log just before and just after each event, if the run was sampled between its ends; nothing
     /// between events at one instant.
     pub around: Vec<[Option<Sample>; 2]>,
@@ -264,10 +266,11 @@ impl Outcome {
             ledger: request.stage(trajectory.last_time(), || {
                 moved.then(|| trajectory.ledger().ok()).flatten()
             }),
-            ledgers: ledgers(sampling::book_times(&samples)),
+            ledgers: ledgers(book_times(&samples)),
             event_ledgers: ledgers(events.iter().map(|event| event.time).collect()),
             samples,
             curve,
+            curve_ledgers: Vec::new(),
             work: trajectory.work(),
             stiff: trajectory.stiff().to_vec(),
             failure,

@@ -220,7 +220,7 @@ impl<'a> Reader<'a> {
 }
 
 /// When the books of these samples are read: of two at one instant the first is just before it.
-pub(super) fn book_times(samples: &[Sample]) -> Vec<f64> {
+pub(crate) fn book_times(samples: &[Sample]) -> Vec<f64> {
     let next = samples.iter().skip(1).map(|sample| Some(sample.time));
     let next = next.chain([None]);
     let times = samples.iter().zip(next);

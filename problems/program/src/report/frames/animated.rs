@@ -4,9 +4,9 @@
 
 use super::element::{self, Element};
 use super::layout::{CURSOR, LETTER, Layout, Place, Seen, letters};
-use super::still::{arrows, decimals, marks};
+use super::still::{arrows, decimals, marks, reading};
 use super::{Clock, Panel};
-use crate::report::picture::{self, Form, Mark, WIDTH, nice};
+use crate::report::picture::{self, Form, Stroke, WIDTH, nice};
 use lagrange_engine::inspect::print::mathml::escaped;
 use std::fmt::Write;
 
@@ -93,42 +93,41 @@ impl Reel {
             painter.grid(out);
             self.solids(&places, |place, out| painter.below(place, out), out);
             for trace in &painter.traces {
-                self.trace(trace, &places, out);
+                self.trace(trace, out);
             }
             self.solids(&places, |place, out| painter.above(place, out), out);
         }
         for mark in panel.picture.iter().flat_map(|picture| &picture.marks) {
-            if mark.form == Form::Trace {
-                self.trace(mark, &places, out);
+            if let Form::Trace { strokes } = &mark.form {
+                self.trace(strokes, out);
                 continue;
             }
             let elements = places.iter();
-            let elements = elements.filter_map(|place| element::mark(mark, *place, height));
-            self.moving(&elements.collect::<Vec<_>>(), "", out);
+            let elements = elements.map(|place| element::mark(mark, *place, height));
+            self.at_times(&elements.collect::<Vec<_>>(), out);
         }
         let arrows: Vec<Vec<Seen>> = places.iter().map(|place| panel.arrows(*place)).collect();
         for i in 0..arrows.first().map_or(0, Vec::len) {
-            let dots = arrows
-                .iter()
-                .filter_map(|arrows| element::dot(i, &arrows[i]));
-            let dots: Vec<Element> = dots.collect();
-            if !dots.is_empty() {
-                self.moving(&dots, "", out);
-            }
+            let dots = arrows.iter().map(|arrows| element::dot(i, &arrows[i]));
+            self.at_times(&dots.collect::<Vec<_>>(), out);
             let all = arrows.iter().map(|arrows| element::arrow(i, &arrows[i]));
-            let (arrows, names): (Vec<Element>, Vec<Option<Element>>) = all.unzip();
-            self.moving(&arrows, "", out);
-            let seen = self.seen(&names.iter().map(Option::is_some).collect::<Vec<_>>());
-            // Where there is no name it waits at the next place that it has, or the last.
-            let mut next = names.iter().flatten().next_back().cloned();
-            let mut placed: Vec<Element> = Vec::new();
-            for name in names.iter().rev() {
-                next = name.clone().or(next);
-                placed.extend(next.clone());
-            }
-            placed.reverse();
-            self.moving(&placed, &seen, out);
+            let (arrows, names): (Vec<_>, Vec<_>) = all.map(|[arrow, name]| (arrow, name)).unzip();
+            self.at_times(&arrows, out);
+            self.at_times(&names, out);
         }
+    }
+
+    /// An element that is not always there: where it is not it waits, unseen, at the next place that it has, or the last.
+    fn at_times(&self, elements: &[Option<Element>], out: &mut String) {
+        let seen = self.seen(&elements.iter().map(Option::is_some).collect::<Vec<_>>());
+        let mut next = elements.iter().flatten().next_back().cloned();
+        let mut placed: Vec<Element> = Vec::new();
+        for element in elements.iter().rev() {
+            next = element.clone().or(next);
+            placed.extend(next.clone());
+        }
+        placed.reverse();
+        self.moving(&placed, &seen, out);
     }
 
     /// Solids in space: a picture for every instant, as their order from the back to the front changes.
@@ -174,30 +173,16 @@ impl Reel {
         first.write(&inside, out);
     }
 
-    /// A path that grows.
-    fn trace(&self, mark: &Mark, places: &[picture::Place], out: &mut String) {
-        let points = places
-            .iter()
-            .map(|place| [0, 1].map(|k| mark.numbers[k].at(*place)));
-        let points: Vec<[f64; 2]> = points.collect();
-        let mut lengths = vec![0.0];
-        for pair in points.windows(2) {
-            let step = (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
-            lengths.push(lengths[lengths.len() - 1] + step);
-        }
-        let whole = lengths[lengths.len() - 1];
-        if whole > 0.0 {
-            let left = lengths
-                .iter()
-                .map(|length| format!("{:.4}", 1.0 - length / whole));
-            let left: Vec<String> = left.collect();
-            let left: Vec<&str> = left.iter().map(String::as_str).collect();
-            let _ = writeln!(
-                out,
-                "<polyline class=\"trace\" pathLength=\"1\" stroke-dasharray=\"1 2\" points=\"{}\">{}</polyline>",
-                element::pairs(&points.concat()),
-                self.animate("stroke-dashoffset", &left)
-            );
+    /// A path that grows: what is new of it at each instant stays from then on.
+    fn trace(&self, strokes: &[Stroke], out: &mut String) {
+        for (k, pair) in self.instants.windows(2).enumerate() {
+            let Some(new) = element::trace(strokes, pair[0], pair[1]) else {
+                continue;
+            };
+            let seen: Vec<bool> = (0..self.instants.len()).map(|i| i > k).collect();
+            let _ = write!(out, "<g visibility=\"hidden\">{}", self.seen(&seen));
+            new.write("", out);
+            out.push_str("</g>\n");
         }
     }
 
@@ -220,7 +205,7 @@ impl Reel {
         let readings = self
             .instants
             .iter()
-            .map(|t| format!("t = {:.decimals$} s", (t / step).floor() * step));
+            .map(|t| reading((t / step).floor() * step, decimals));
         self.words(&readings.collect::<Vec<_>>(), 0.0, y, out);
         let modes = self.instants.iter().map(|t| layout.mode(panel, *t));
         self.words(&modes.collect::<Vec<_>>(), 9.0 * LETTER, y, out);

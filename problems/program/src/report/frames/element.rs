@@ -2,7 +2,7 @@
 
 use super::layout::Seen;
 use crate::report::picture::palette::colour;
-use crate::report::picture::{Form, Mark, Place, WIDTH, outline};
+use crate::report::picture::{Form, Mark, Place, Stroke, WIDTH, outline, part};
 use lagrange_engine::inspect::print::mathml::escaped;
 use std::fmt::Write;
 
@@ -44,9 +44,12 @@ impl Element {
     }
 }
 
-/// A mark at a place among the samples.
+/// A mark at a place among the samples; nothing where its numbers are none.
 pub(super) fn mark(mark: &Mark, place: Place, height: f64) -> Option<Element> {
     let n: Vec<f64> = mark.numbers.iter().map(|column| column.at(place)).collect();
+    if n.iter().any(|number| !number.is_finite()) {
+        return None;
+    }
     let class = format!(" class=\"{}\"", mark.class);
     Some(match (&mark.form, n.as_slice()) {
         (Form::Circle, [x, y, r]) => {
@@ -61,11 +64,6 @@ pub(super) fn mark(mark: &Mark, place: Place, height: f64) -> Option<Element> {
             let (width, height) = (WIDTH + 18.0, short(height + 9.0));
             let fixed = format!("{class} x=\"-9\" width=\"{width}\" height=\"{height}\"");
             Element::new("rect", fixed, vec![("y", short(*y))])
-        }
-        (Form::Trace, [x, y]) => {
-            let so_far = mark.path(place.sample).chain([[*x, *y]]);
-            let so_far: Vec<f64> = so_far.flatten().collect();
-            Element::new("polyline", class, vec![("points", pairs(&so_far))])
         }
         (Form::Placed { line }, [x, y, angle, stretch]) => {
             let (sin, cos) = angle.to_radians().sin_cos();
@@ -83,12 +81,25 @@ pub(super) fn mark(mark: &Mark, place: Place, height: f64) -> Option<Element> {
     })
 }
 
+/// What of a path is drawn from one time to another; nothing if it has gaps there or stays where it is seen already.
+pub(super) fn trace(strokes: &[Stroke], from: f64, to: f64) -> Option<Element> {
+    let mut line = String::new();
+    for stroke in strokes {
+        for (k, [x, y]) in part(stroke, from, to).into_iter().enumerate() {
+            let pen = if k == 0 { 'M' } else { 'L' };
+            let _ = write!(line, "{pen}{} {}", short(x), short(y));
+        }
+    }
+    let class = " class=\"trace\"".to_owned();
+    (!line.is_empty()).then(|| Element::new("path", class, vec![("d", line)]))
+}
+
 /// Radius of the dot where a force acts.
 const DOT: f64 = 4.0;
 
-/// The dot where the arrow number `index` acts, which is gone with the force.
+/// The dot where the arrow number `index` acts, which is gone with the force; nothing where that is nowhere.
 pub(super) fn dot(index: usize, seen: &Seen) -> Option<Element> {
-    let [x, y] = seen.acts?;
+    let [x, y] = seen.acts.filter(|at| at.iter().all(|x| x.is_finite()))?;
     let radius = outline(seen.ends).map_or(0.0, |_| DOT);
     let moving = vec![("cx", short(x)), ("cy", short(y)), ("r", short(radius))];
     Some(Element::new(
@@ -98,8 +109,11 @@ pub(super) fn dot(index: usize, seen: &Seen) -> Option<Element> {
     ))
 }
 
-/// The arrow number `index`: its outline, and its name if there is room for one.
-pub(super) fn arrow(index: usize, seen: &Seen) -> (Element, Option<Element>) {
+/// The arrow number `index`, unless it is nowhere: its outline, and its name if there is room for one.
+pub(super) fn arrow(index: usize, seen: &Seen) -> [Option<Element>; 2] {
+    if !seen.ends.iter().all(|end| end.is_finite()) {
+        return [None, None];
+    }
     let fill = format!(" fill=\"{}\"", colour(index));
     let [x, y, ..] = seen.ends;
     let corners = outline(seen.ends).unwrap_or([[x, y]; 7]);
@@ -112,7 +126,7 @@ pub(super) fn arrow(index: usize, seen: &Seen) -> (Element, Option<Element>) {
             vec![("x", short(x)), ("y", short(y))],
         )
     });
-    (Element::new("polygon", fill, points), name)
+    [Some(Element::new("polygon", fill, points)), name]
 }
 
 /// `x,y x,y …`

@@ -67,11 +67,8 @@ impl<'a> Layout<'a> {
     pub fn new(panels: &[Panel<'a>]) -> Self {
         let films: Vec<&Film> = panels.iter().map(|panel| panel.film).collect();
         let pictures = pictures(&films);
-        let painter = |(film, stage): (&&Film, Option<_>)| {
-            stage.map(|stage| Painter::new(stage, film.outcome.samples.len()))
-        };
-        let painters: Vec<Option<Painter>> =
-            films.iter().zip(stages(&films)).map(painter).collect();
+        let stages = stages(&films).into_iter();
+        let painters: Vec<Option<Painter>> = stages.map(|stage| stage.map(Painter::new)).collect();
         let heights = pictures.iter().flatten().map(|picture| picture.height);
         let seen = painters.iter().flatten().map(|painter| painter.view.height);
         let height = heights.chain(seen).fold(0.0, f64::max);

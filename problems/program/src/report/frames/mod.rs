@@ -92,14 +92,15 @@ pub(crate) fn span<'a>(films: impl Iterator<Item = &'a Film>) -> (f64, f64) {
 pub(crate) const SPEEDS: [f64; 9] = [0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0];
 
 /// The highest speed up to 1 at which so many seconds are seen for at least four; of more than forty, the highest round one at which they
-/// are seen for at least forty.
+/// are seen for at least forty; of so few that every speed of a page is too high, the highest round one at which they are seen for four.
 pub(crate) fn usual_speed(duration: f64) -> f64 {
     if duration > 40.0 {
         return nice(duration / 40.0);
     }
     let fits = |speed: &&f64| **speed <= 1.0 && duration / **speed >= 4.0;
     let speeds = SPEEDS.iter();
-    speeds.rev().find(fits).copied().unwrap_or(SPEEDS[0])
+    let highest = speeds.rev().find(fits).copied();
+    highest.unwrap_or_else(|| nice(duration / 4.0))
 }
 
 #[cfg(test)]
@@ -108,7 +109,15 @@ mod tests {
 
     #[test]
     fn speeds_suit_their_films() {
-        let speeds = [0.01, 1.0, 3.0, 20.0, 40.0, 100.0, 600.0, 1e5, 1e9].map(usual_speed);
+        let speeds = [0.2, 1.0, 3.0, 20.0, 40.0, 100.0, 600.0, 1e5, 1e9].map(usual_speed);
         assert_eq!(speeds, [0.05, 0.25, 0.5, 1.0, 1.0, 2.0, 10.0, 2000.0, 2e7]);
+    }
+
+    #[test]
+    fn the_shortest_films_take_seconds() {
+        for duration in [0.19, 0.01, 7e-6, 4.2e-13] {
+            let seen = duration / usual_speed(duration);
+            assert!((4.0..10.0).contains(&seen), "{duration}: {seen}");
+        }
     }
 }

@@ -3,7 +3,7 @@
 use super::element::{self, Element};
 use super::layout::{CURSOR, LETTER, Layout, Place, letters};
 use super::{Clock, Panel};
-use crate::report::picture::{self, WIDTH};
+use crate::report::picture::{self, Form, WIDTH};
 use lagrange_engine::inspect::print::mathml::escaped;
 use std::fmt::Write;
 
@@ -27,7 +27,8 @@ pub fn stills<'a>(panels: &'a [Panel], clock: &'a Clock) -> impl Iterator<Item =
             let _ = writeln!(
                 out,
                 "<path class=\"cursor\" d=\"M{x:.1} {top:.1}v{CURSOR}\"/><text class=\"words\" y=\"{y:.1}\">\
-                 t = {time:.decimals$} s</text><text class=\"words\" x=\"{words:.1}\" y=\"{y:.1}\"{}>{}</text>\n</g>",
+                 {}</text><text class=\"words\" x=\"{words:.1}\" y=\"{y:.1}\"{}>{}</text>\n</g>",
+                reading(time, decimals),
                 letters(&mode, words),
                 escaped(&mode)
             );
@@ -39,8 +40,17 @@ pub fn stills<'a>(panels: &'a [Panel], clock: &'a Clock) -> impl Iterator<Item =
 /// Digits after the point with which times of a film are told.
 pub(super) fn decimals(duration: f64) -> usize {
     match duration > 0.0 {
-        true => (3 - duration.log10().floor() as i32).clamp(0, 9) as usize,
+        true => (3 - duration.log10().floor() as i32).max(0) as usize,
         false => 0,
+    }
+}
+
+/// What the clock shows, with so many digits after the point; more of them than there is room for follow a power of ten.
+pub(super) fn reading(time: f64, decimals: usize) -> String {
+    const ROOM: usize = 9;
+    match decimals.checked_sub(3).filter(|_| decimals > ROOM) {
+        Some(power) => format!("t = {:.3}e-{power} s", time * 10_f64.powi(power as i32)),
+        None => format!("t = {time:.decimals$} s"),
     }
 }
 
@@ -51,12 +61,17 @@ pub(super) fn marks(panel: &Place, time: f64, out: &mut String) {
         painter.grid(out);
         painter.below(place, out);
         for trace in &painter.traces {
-            put(element::mark(trace, place, panel.height), out);
+            put(element::trace(trace, f64::NEG_INFINITY, time), out);
         }
         painter.above(place, out);
     }
     for mark in panel.picture.iter().flat_map(|picture| &picture.marks) {
-        put(element::mark(mark, place, panel.seen_height()), out);
+        match &mark.form {
+            Form::Trace { strokes } => {
+                put(element::trace(strokes, f64::NEG_INFINITY, time), out);
+            }
+            _ => put(element::mark(mark, place, panel.seen_height()), out),
+        }
     }
 }
 
@@ -65,8 +80,8 @@ pub(super) fn arrows(panel: &Place, time: f64, out: &mut String) {
     let place = picture::Place::of(time, &panel.times);
     for (i, arrow) in panel.arrows(place).iter().enumerate() {
         let dot = element::dot(i, arrow);
-        let (arrow, name) = element::arrow(i, arrow);
-        put([dot, Some(arrow), name].into_iter().flatten(), out);
+        let [arrow, name] = element::arrow(i, arrow);
+        put([dot, arrow, name].into_iter().flatten(), out);
     }
 }
 

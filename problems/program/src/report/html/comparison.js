@@ -5,8 +5,8 @@ function comparison(parent, runs, clock, seek, zoom) {
   const row = html("p", { class: "choices" }, figure);
   const what = html("select", {}, html("label", {}, row, "Show "));
   const kinds = [
-    (c) => [c.name, named(c.name, c.unit), c.q],
-    (c) => [`d${c.name}/dt`, named(`d${c.name}/dt`, c.rate_unit), c.v],
+    (c) => [c.name, named(c.name, c.unit), c.q, c.q_fine],
+    (c) => [`d${c.name}/dt`, named(`d${c.name}/dt`, c.rate_unit), c.v, c.v_fine],
     (c) => [`${c.name} less that of the first run`, named(`difference of ${c.name}`, c.unit), c.apart],
   ];
   kinds.forEach((kind, k) => runs[0].phase.forEach((c, i) => html("option", { value: `${k} ${i}` }, what, kind(c)[0])));
@@ -16,9 +16,11 @@ function comparison(parent, runs, clock, seek, zoom) {
     const [k, i] = what.value.split(" ");
     stage.replaceChildren();
     const legend = html("ul", { class: "legend" });
-    const all = runs.map((run, r) => ({ name: run.title, xs: run.time, times: run.time, ys: kinds[k](run.phase[i])[2], dash: dashes[r % dashes.length] }));
-    // The first run has no difference from itself.
-    const lines = all.map((line) => ({ ...line, ys: line.ys || line.xs.map(() => 0) }));
+    const lines = runs.map((run, r) => {
+      // The first run has no difference from itself.
+      const [, , values = run.time.map(() => 0), fine] = kinds[k](run.phase[i]);
+      return { name: run.title, ...overTime(run.time, values, fine), dash: dashes[r % dashes.length] };
+    });
     const [title, axis] = kinds[k](runs[0].phase[i]);
     show = chart(stage, legend, { title, xName: "time [s]", axis, whole: clock, lines, seek, zoom });
     stage.append(legend);

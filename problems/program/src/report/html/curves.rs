@@ -2,12 +2,13 @@
 
 use super::super::with_unit;
 use super::difference::difference;
+use super::fine::{Fine, Lines, fine, lines};
 use crate::film::Film;
 use crate::notation::symbol;
 use crate::number::significant;
 use crate::outcome::{Force, Outcome, Sample, Source, forces};
 use crate::quantity::{Quantity, force_word, limit_name};
-use crate::report::plot::CONSTANT;
+use crate::report::plot::{CONSTANT, shown_line};
 use lagrange_core::prelude::Ledger;
 use lagrange_core::system::Friction;
 use serde::Serialize;
@@ -21,7 +22,7 @@ pub(super) struct Plot {
     /// Of every value, s; the samples if there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     time: Vec<f64>,
-    curves: Vec<Curve>,
+    pub curves: Vec<Curve>,
 }
 
 #[derive(Serialize)]
@@ -31,6 +32,9 @@ pub(super) struct Curve {
     #[serde(skip_serializing_if = "is_false")]
     limit: bool,
     values: Vec<Option<f64>>,
+    /// Points of its own, where those are too few.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fine: Option<Fine>,
 }
 
 /// A coordinate and its rate.
@@ -41,6 +45,12 @@ pub(super) struct Portrait {
     rate_unit: String,
     q: Vec<f64>,
     v: Vec<f64>,
+    /// Points of their own, where those are too few.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub q_fine: Option<Fine>,
+    /// See `q_fine`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub v_fine: Option<Fine>,
     /// Less that of the first run of the scene.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     apart: Vec<Option<f64>>,
@@ -51,18 +61,24 @@ pub(super) struct Portrait {
 pub(super) struct Output {
     name: &'static str,
     unit: String,
-    values: Vec<f64>,
+    values: Vec<Option<f64>>,
+    /// Points of its own, where those are too few.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fine: Option<Fine>,
 }
 
 /// What the declaration observes.
 pub(super) fn outputs(outcome: &Outcome) -> Vec<Output> {
     let list = outcome.description.observes.iter().enumerate();
-    let output = |(i, observe): (usize, &lagrange_core::system::Observe)| Output {
-        name: observe.name,
-        unit: Quantity::Output(i).unit(outcome.description),
-        values: over(outcome, |sample| {
-            Quantity::Output(i).scale(outcome.description) * sample.observes[i]
-        }),
+    let output = |(i, observe): (usize, &lagrange_core::system::Observe)| {
+        let quantity = Quantity::Output(i);
+        let of = |sample: &Sample| quantity.of(outcome.description, sample);
+        Output {
+            name: observe.name,
+            unit: quantity.unit(outcome.description),
+            values: told(&outcome.samples.iter().map(of).collect::<Vec<_>>()),
+            fine: fine_alone(outcome, &quantity),
+        }
     };
     list.map(output).collect()
 }
@@ -107,16 +123,17 @@ fn frictions(outcome: &Outcome) -> Vec<Plot> {
             sample.limits[i].map(|_| rows.iter().fold(0.0, |sum: f64, f| sum.hypot(*f)))
         };
         let name = friction.name;
+        let curves = vec![
+            curve(outcome, format!("|{name}|"), false, held),
+            curve(outcome, limit_name(friction).to_owned(), true, |sample| {
+                sample.limits[i]
+            }),
+        ];
         Plot {
             title: format!("Friction {name} and what it can hold"),
             axis: force_axis(description.units.row(friction.row)),
             time: Vec::new(),
-            curves: vec![
-                curve(outcome, format!("|{name}|"), false, held),
-                curve(outcome, limit_name(friction).to_owned(), true, |sample| {
-                    sample.limits[i]
-                }),
-            ],
+            curves: drawn_finely(&times(outcome), curves),
         }
     };
     let list = description.frictions.iter().enumerate();
@@ -162,7 +179,7 @@ fn pushes(outcome: &Outcome, title: &str, of_kind: fn(Source) -> bool) -> Vec<Pl
             title: title.to_owned(),
             axis: force_axis(of),
             time: Vec::new(),
-            curves: some.iter().map(curve).collect(),
+            curves: drawn_finely(&times(outcome), some.iter().map(curve).collect()),
         }));
     }
     plots
@@ -189,7 +206,7 @@ fn energies(outcome: &Outcome) -> Plot {
         title: "Energy".to_owned(),
         axis: with_unit("energy", outcome.description.units.energy),
         time: Vec::new(),
-        curves: curves.collect(),
+        curves: drawn_finely(&times(outcome), curves.collect()),
     }
 }
 
@@ -211,19 +228,26 @@ fn work(film: &Film) -> (Option<Plot>, usize) {
     items.truncate(CURVES);
     items.sort_unstable();
     let books = film.books.iter();
-    let curve = |i: usize| Curve {
-        name: format!("{} ({})", last.work[i].name, last.work[i].kind),
-        limit: false,
-        values: {
-            let works = books.clone().map(|(_, ledger)| ledger.work[i].work);
-            short(works.collect()).into_iter().map(Some).collect()
-        },
+    let times: Vec<f64> = books.clone().map(|(time, _)| *time).collect();
+    let outcome = &film.outcome;
+    let curve = |i: usize| {
+        let works = books.clone().map(|(_, ledger)| ledger.work[i].work);
+        let dense = outcome.curve.iter().zip(&outcome.curve_ledgers);
+        let dense = dense.map(|(sample, ledger)| (sample.time, ledger.work[i].work));
+        let curve = Curve {
+            name: format!("{} ({})", last.work[i].name, last.work[i].kind),
+            limit: false,
+            values: short(works.collect()).into_iter().map(Some).collect(),
+            fine: None,
+        };
+        let line = shown_line(&dense.collect::<Vec<_>>(), outcome.lasts());
+        (curve, vec![line])
     };
     let plot = (!items.is_empty()).then(|| Plot {
         title: "Work since the start".to_owned(),
-        axis: with_unit("work", film.outcome.description.units.energy),
-        time: short(books.clone().map(|(time, _)| *time).collect()),
-        curves: items.iter().map(|&i| curve(i)).collect(),
+        axis: with_unit("work", outcome.description.units.energy),
+        curves: drawn_finely(&times, items.iter().map(|&i| curve(i)).collect()),
+        time: short(times),
     });
     (plot, left_out)
 }
@@ -239,6 +263,8 @@ pub(super) fn portraits(outcome: &Outcome, other: Option<&Outcome>) -> Vec<Portr
             rate_unit: v.unit(d),
             q: over(outcome, |sample| q.scale(d) * sample.state.q[i]),
             v: over(outcome, |sample| v.scale(d) * sample.state.v[i]),
+            q_fine: fine_alone(outcome, &q),
+            v_fine: fine_alone(outcome, &v),
             apart: other.map_or(Vec::new(), |other| {
                 let apart = difference(outcome, other, i).into_iter();
                 apart
@@ -252,22 +278,56 @@ pub(super) fn portraits(outcome: &Outcome, other: Option<&Outcome>) -> Vec<Portr
         .collect()
 }
 
+/// A curve through the samples, and the lines of a finer one.
 fn curve(
     outcome: &Outcome,
     name: String,
     limit: bool,
     of: impl Fn(&Sample) -> Option<f64>,
-) -> Curve {
+) -> (Curve, Lines) {
+    let lines = lines(outcome, &of);
     let values: Vec<Option<f64>> = outcome.samples.iter().map(of).collect();
-    let mut told = short(values.iter().copied().flatten().collect()).into_iter();
-    let values = values.iter();
-    Curve {
+    let curve = Curve {
         name,
         limit,
-        values: values
-            .map(|value| value.and_then(|_| told.next()))
-            .collect(),
+        values: told(&values),
+        fine: None,
+    };
+    (curve, lines)
+}
+
+/// Curves of one plot, with lines of their own where the values at these times are too few.
+fn drawn_finely(times: &[f64], curves: Vec<(Curve, Lines)>) -> Vec<Curve> {
+    let (mut curves, lines): (Vec<Curve>, Vec<Lines>) = curves.into_iter().unzip();
+    let pairs = curves.iter().map(|curve| &curve.values[..]).zip(lines);
+    let fine = fine(times, &pairs.collect::<Vec<_>>());
+    for (curve, fine) in curves.iter_mut().zip(fine) {
+        curve.fine = fine;
     }
+    curves
+}
+
+/// The lines of a number that is drawn alone, where the samples are too few.
+fn fine_alone(outcome: &Outcome, quantity: &Quantity) -> Option<Fine> {
+    let of = |sample: &Sample| quantity.of(outcome.description, sample);
+    let values: Vec<Option<f64>> = outcome.samples.iter().map(of).collect();
+    fine(&times(outcome), &[(&values, lines(outcome, of))])
+        .pop()
+        .flatten()
+}
+
+/// When the samples are.
+fn times(outcome: &Outcome) -> Vec<f64> {
+    outcome.samples.iter().map(|sample| sample.time).collect()
+}
+
+/// Values with the digits that a curve shows; what is no finite number is none.
+pub(super) fn told(values: &[Option<f64>]) -> Vec<Option<f64>> {
+    let finite = || values.iter().map(|value| value.filter(|x| x.is_finite()));
+    let mut told = short(finite().flatten().collect()).into_iter();
+    finite()
+        .map(|value| value.and_then(|_| told.next()))
+        .collect()
 }
 
 pub(super) fn over(outcome: &Outcome, of: impl Fn(&Sample) -> f64) -> Vec<f64> {

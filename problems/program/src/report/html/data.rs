@@ -36,7 +36,7 @@ struct Run {
     #[serde(skip_serializing_if = "Option::is_none")]
     space: Option<Stage>,
     plots: Vec<Plot>,
-    /// That there is no room for some plots, curves and coordinates.
+    /// That there is no room for some plots, curves and coordinates, and what is drawn nowhere at times.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     left_out: Vec<String>,
     phase: Vec<Portrait>,
@@ -60,12 +60,11 @@ struct Happening {
 pub(super) fn data(runs: &[Shown], speed: Option<f64>) -> Data {
     let films: Vec<&Film> = runs.iter().map(|run| &run.film).collect();
     let (first, last) = span(films.iter().copied());
-    let speed = speed.unwrap_or_else(|| usual_speed(last - first));
-    let mut speeds = SPEEDS.to_vec();
-    if !speeds.contains(&speed) {
-        speeds.push(speed);
-        speeds.sort_by(f64::total_cmp);
-    }
+    let usual = usual_speed(last - first);
+    let speed = speed.unwrap_or(usual);
+    let mut speeds = [&SPEEDS[..], &[usual, speed]].concat();
+    speeds.sort_by(f64::total_cmp);
+    speeds.dedup();
     let first = |film: &Film| {
         let of_scene = |other: &&Film| other.outcome.scene == film.outcome.scene;
         let first = films.iter().copied().find(of_scene);
@@ -113,6 +112,7 @@ fn run(
     let left_out = [forces, works, coordinates].into_iter();
     let left_out = left_out.filter(|(_, count)| *count > 0);
     let left_out = left_out.map(|(what, count)| format!("{what} that are left out: {count}."));
+    let left_out = shown.film.not_drawn().into_iter().chain(left_out);
     Run {
         title: shown.title.clone(),
         scene: outcome.scene,

@@ -67,11 +67,14 @@ function place(times, t) {
   return [low, width > 0 ? Math.min(Math.max((t - times[low]) / width, 0), 1) : 0];
 }
 
+// How many of ascending times have come.
+const reached = (times, t) => (t < times[0] ? 0 : place(times, t)[0] + 1);
+
 function at(column, [index, part]) {
   if (!Array.isArray(column)) return column;
   const a = column[index], b = column[index + 1];
-  if (part === 0 || a === null || b === null || b === undefined) return a;
-  return a + part * (b - a);
+  if (part === 0 || b === undefined) return a;
+  return a === null || b === null ? null : a + part * (b - a);
 }
 
 // A line of a legend: a sample of the stroke, a name, and a place for the present value.

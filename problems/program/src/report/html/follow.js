@@ -15,7 +15,9 @@ function windowAlong({ height, marks }, count) {
     const xs = n.filter((_, i) => i % 2 === 0), ys = n.filter((_, i) => i % 2);
     return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
   };
-  const all = (where) => moving.map((mark) => span(mark, where)).reduce(([a, b, c, d], [e, f, g, h]) => [Math.min(a, e), Math.min(b, f), Math.max(c, g), Math.max(d, h)]);
+  const there = (where) => moving.filter((mark) => mark.numbers.every((column) => at(column, where) !== null));
+  const none = [Infinity, Infinity, -Infinity, -Infinity];
+  const all = (where) => there(where).map((mark) => span(mark, where)).reduce(([a, b, c, d], [e, f, g, h]) => [Math.min(a, e), Math.min(b, f), Math.max(c, g), Math.max(d, h)], none);
   let wide = 0;
   for (let i = 0; i < count; i++) {
     const [left, top, right, low] = all([i, 0]);
@@ -25,8 +27,11 @@ function windowAlong({ height, marks }, count) {
   wide *= 2.5;
   if (!(wide > 0 && wide < 600)) return null;
   const high = (wide * height) / 1000;
+  let window = [0, 0, wide, high];
   return (where) => {
     const [left, top, right, low] = all(where);
-    return [(left + right - wide) / 2, (top + low - high) / 2, wide, high];
+    // Where nothing is it stays.
+    if (left <= right) window = [(left + right - wide) / 2, (top + low - high) / 2, wide, high];
+    return window;
   };
 }

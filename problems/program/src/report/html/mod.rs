@@ -6,6 +6,7 @@ mod curves;
 mod data;
 mod difference;
 mod equations;
+mod fine;
 mod tables;
 
 use crate::film::Film;

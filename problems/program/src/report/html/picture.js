@@ -18,16 +18,30 @@ function picture(stage, run) {
     ground(shape, [y]) { set(shape, { y }); },
     placed(shape, [x, y, turn, long]) { set(shape, { transform: `translate(${x} ${y}) rotate(${turn}) scale(${long} 1)` }); },
   };
-  const elements = { circle: "circle", polygon: "polygon", ground: "rect" };
+  const elements = { circle: "circle", polygon: "polygon", ground: "rect", trace: "path" };
   const drawn = marks.map((mark) => {
     const shape = svg(elements[mark.form] || "polyline", { class: mark.class }, root);
     if (mark.form === "ground") set(shape, { x: -30000, width: 61000, height: height + 10 });
     if (mark.form === "placed") set(shape, { points: mark.line.map((point) => point.join(",")).join(" ") });
     if (mark.form === "trace") {
-      const path = run.time.map((_, i) => pairs(mark.numbers.map((column) => at(column, [i, 0]))));
-      return (n, [index]) => set(shape, { points: [...path.slice(0, index + 1), pairs(n)].join(" ") });
+      const strokes = mark.strokes.map((points) => {
+        const times = points.map(([time]) => time), steps = points.map(([, x, y], i) => `${i ? "L" : "M"}${x} ${y}`), whole = steps.join("");
+        // The end goes straight on from point to point.
+        const end = (where) => [1, 2].map((k) => at(points.map((point) => point[k]), where)).join(" ");
+        return (time) => {
+          const count = reached(times, time);
+          if (count === 0 || count === steps.length) return count ? whole : "";
+          return `${steps.slice(0, count).join("")}L${end(place(times, time))}`;
+        };
+      });
+      return (n, where) => set(shape, { d: strokes.map((stroke) => stroke(at(run.time, where))).join("") });
     }
-    return (n) => forms[mark.form](shape, n);
+    return (n) => {
+      // What is nowhere is not drawn.
+      const there = !n.includes(null);
+      shape.style.display = there ? "" : "none";
+      if (there) forms[mark.form](shape, n);
+    };
   });
 
   // The window that goes along, and the window that is seen.
@@ -70,12 +84,14 @@ function picture(stage, run) {
     name.textContent = arrow.name;
     const value = entry(legend, arrow.impulse ? arrow.name : `force ${arrow.name}`, colour(i));
     return (where, taken) => {
-      const [x1, y1, dx, dy] = arrow.numbers.map((column) => at(column, where)), [x2, y2] = [x1 + dx * shrunk(), y1 + dy * shrunk()];
+      const numbers = arrow.numbers.map((column) => at(column, where)), there = !numbers.includes(null);
+      const [x1, y1, dx, dy] = numbers, [x2, y2] = [x1 + dx * shrunk(), y1 + dy * shrunk()];
       value.textContent = `${digits(at(arrow.size, where))} ${arrow.impulse ? "N s" : "N"}`;
       const length = Math.hypot(x2 - x1, y2 - y1);
-      shape.style.display = length < 2 * shrunk() ? "none" : "";
+      const long = there && length >= 2 * shrunk();
+      shape.style.display = long ? "" : "none";
       name.style.display = "none";
-      if (length < 2 * shrunk()) return;
+      if (!long) return;
       const [ux, uy] = [(x2 - x1) / length, (y2 - y1) / length];
       const thick = letter / 16, tip = Math.min(0.5 * length, 12 * thick), neck = length - tip;
       const corners = [[0, thick], [neck, thick], [neck, 0.45 * tip], [length, 0], [neck, -0.45 * tip], [neck, -thick], [0, -thick]];

@@ -6,9 +6,9 @@
   const still = matchMedia("(prefers-reduced-motion: reduce)");
   const first = Math.min(...runs.map((run) => run.time[0] ?? 0));
   const end = Math.max(...runs.map((run) => run.time[run.time.length - 1] ?? 0));
-  const duration = Math.max(end - first, 1e-9);
+  const duration = end - first || 1;
   const stops = [first, ...runs.flatMap((run) => run.events.map((event) => event.time)), end].sort((a, b) => a - b);
-  const decimals = Math.max(0, 3 - Math.floor(Math.log10(duration)));
+  const decimals = Math.min(Math.max(0, 3 - Math.floor(Math.log10(duration))), 100);
   let time = first, playing = false, since = 0;
 
   // Runs of one scene have the same axes.
@@ -16,7 +16,7 @@
   const modes = [...new Set(runs.flatMap((run) => run.phases.map((phase) => phase.mode)))];
   const spanOf = (run, title, axis) => {
     const same = alike(run).flatMap((other) => other.plots).filter((plot) => plot.title === title && plot.axis === axis);
-    const of = (limit) => same.flatMap((plot) => plot.curves.filter((curve) => !!curve.limit === limit).flatMap((curve) => curve.values));
+    const of = (limit) => same.flatMap((plot) => plot.curves.filter((curve) => !!curve.limit === limit).flatMap((curve) => curve.fine?.values || curve.values));
     const [low, high] = range(of(false)), [least, most] = range(of(true));
     if (least === 0 && most === 1 && !of(true).some((value) => value !== null)) return [low, high];
     // What can be held may be far above what is: it leaves the plot then.
@@ -35,7 +35,8 @@
     shows.push(timeline(part("timeline"), part("mode"), run));
     const common = { modes, clock: [first, end], seek, zoom };
     // Runs of one scene have the same scales.
-    const spans = (name) => range(alike(run).flatMap((other) => quantities(other).find((quantity) => quantity.name === name)?.values || []));
+    const known = (name) => alike(run).map((other) => quantities(other).find((quantity) => quantity.name === name));
+    const spans = (name) => range(known(name).flatMap((quantity) => quantity?.fine?.values || quantity?.values || []));
     if (run.phase.length) for (const chosen of [[1, 0], [2, 1]]) shows.push(free(part("plots"), run, chosen, { ...common, spans }));
     for (const spec of run.plots) {
       const span = spanOf(run, spec.title, spec.axis);

@@ -141,7 +141,7 @@ function chart(figure, legend, { title, xName, axis, whole, span, lines, seek, u
       set(cursor, { x1: now, x2: now, "stroke-dasharray": pointed === null ? "none" : "3 3" });
     }
     lines.forEach(({ xs, ys, times }, i) => {
-      const where = place(times, time), over = time > times[times.length - 1] + 1e-9;
+      const where = place(times, time), end = times[times.length - 1], over = time > end + 1e-9 * (end - times[0]);
       outputs[i].textContent = digits(over ? null : at(ys, where));
       if (dots[i]) set(dots[i], { cx: scale.X(at(xs, where)), cy: scale.Y(at(ys, where) ?? 0) });
     });
@@ -195,12 +195,17 @@ function chart(figure, legend, { title, xName, axis, whole, span, lines, seek, u
   return show;
 }
 
+// A line over time: through points of its own where the samples are too few to show it.
+function overTime(times, values, fine) {
+  return fine ? { xs: fine.time, ys: fine.values, times: fine.time } : { xs: times, ys: values, times };
+}
+
 // A plot of a run over time.
 function plot(parent, spec, run, { modes, span, clock, seek, zoom }) {
   const times = spec.time || run.time;
   const figure = html("figure", {}, parent);
   html("figcaption", {}, figure, spec.title);
-  const lines = spec.curves.map(({ name, values, limit }) => ({ name, xs: times, ys: values, times, dash: limit ? "7 4" : "none" }));
+  const lines = spec.curves.map(({ name, values, limit, fine }) => ({ name, ...overTime(times, values, fine), dash: limit ? "7 4" : "none" }));
   const legend = html("ul", { class: "legend" });
   const under = (box, scale) => shades(box, scale, run, modes);
   const show = chart(figure, legend, { title: spec.title, xName: "time [s]", axis: spec.axis, whole: clock, span, lines, seek, under, zoom });
@@ -211,11 +216,11 @@ function plot(parent, spec, run, { modes, span, clock, seek, zoom }) {
 // All that a run has over time, to be drawn over time or over each other.
 function quantities(run) {
   const all = [{ name: "time", unit: "s", values: run.time }];
-  for (const c of run.phase) all.push({ name: c.name, unit: c.unit, values: c.q }, { name: `d${c.name}/dt`, unit: c.rate_unit, values: c.v });
+  for (const c of run.phase) all.push({ name: c.name, unit: c.unit, values: c.q, fine: c.q_fine }, { name: `d${c.name}/dt`, unit: c.rate_unit, values: c.v, fine: c.v_fine });
   for (const o of run.outputs) all.push(o);
   for (const { title, axis, time, curves } of run.plots) {
     const unit = (axis.match(/\[(.*)\]/) || [, ""])[1];
-    if (!time) for (const { name, values } of curves) all.push({ name: `${title}: ${name}`, unit, values });
+    if (!time) for (const { name, values, fine } of curves) all.push({ name: `${title}: ${name}`, unit, values, fine });
   }
   return all;
 }
@@ -238,15 +243,16 @@ function free(parent, run, [vertical, horizontal], { modes, clock, seek, zoom, s
   const stage = html("div", {}, figure);
   let last = clock[0], show = () => {};
   const draw = () => {
-    const [up, across] = [list[y.value], list[x.value]], overTime = across === list[0];
+    const [up, across] = [list[y.value], list[x.value]], timed = across === list[0];
     stage.replaceChildren();
     const legend = html("ul", { class: "legend" });
-    const lines = [{ name: up.name, xs: across.values, ys: up.values, times: run.time, dash: "none" }];
+    const line = timed ? overTime(run.time, up.values, up.fine) : { xs: across.values, ys: up.values, times: run.time };
+    const lines = [{ name: up.name, ...line, dash: "none" }];
     const own = zooming();
     show = chart(stage, legend, {
       title: `${up.name} over ${across.name}`, xName: named(across.name, across.unit), axis: named(up.name, up.unit),
-      whole: overTime ? clock : spans(across.name) || range(across.values), span: spans(up.name), lines, seek: overTime ? seek : null,
-      under: overTime ? (box, scale) => shades(box, scale, run, modes) : null, zoom: overTime ? zoom : own,
+      whole: timed ? clock : spans(across.name) || range(across.values), span: spans(up.name), lines, seek: timed ? seek : null,
+      under: timed ? (box, scale) => shades(box, scale, run, modes) : null, zoom: timed ? zoom : own,
     });
     stage.append(legend);
     show(last);

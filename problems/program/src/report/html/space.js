@@ -33,8 +33,8 @@ function space(stage, run) {
   paint();
 
   // The ground: the plane of the body that is called so, around the middle of the scene.
-  const ground = bodies.find((body) => body.kind === "ground");
   const still = (columns) => columns.map((column) => at(column, [0, 0]));
+  const ground = bodies.find(({ kind, places, turn }) => kind === "ground" && !still([...places, ...turn]).includes(null));
   const middle = low.map((x, k) => (x + high[k]) / 2);
   const cell = nice(size / 8);
   const floor = ground && (() => {
@@ -52,7 +52,7 @@ function space(stage, run) {
     return [0, 1, 2, 3].flatMap((column) => rows.map((row) => row[column]));
   })();
 
-  const traces = bodies.filter((body) => body.kind === "trace").map(({ places }) => run.time.map((_, i) => places.map((column) => at(column, [i, 0]))));
+  const traces = bodies.flatMap(({ strokes }) => strokes || []).map((stroke) => ({ times: stroke.map(([time]) => time), points: stroke.map((point) => point.slice(1)) }));
   const straight = (mesh, from, to, wide, paint) => {
     const along = plus(to, from, -1);
     return { mesh, turn: towards(along), scale: [wide, wide, Math.hypot(...along)], at: from, first: paint, second: paint };
@@ -62,6 +62,8 @@ function space(stage, run) {
 
   function solids({ kind, size: edges, places, turn }, where) {
     if (kind === "ground" || kind === "trace") return [];
+    // What is nowhere is not drawn.
+    if ([...places, ...(turn || []), ...edges].some((column) => at(column, where) === null)) return [];
     const numbers = places.map((column) => at(column, where)), [first, second] = paints[kind].map((name) => colours[name]);
     if (kind === "rod") {
       const joints = [], parts = [];
@@ -94,7 +96,8 @@ function space(stage, run) {
 
   // Where each force acts and where it points; near by, arrows are as large to the eye as from afar.
   const ends = ({ numbers, impulse }, where) => {
-    const n = numbers.map((column) => at(column, where)), along = n.slice(3).map((x) => x * seen.near());
+    // An arrow that is nowhere has no length.
+    const known = numbers.map((column) => at(column, where)), n = known.includes(null) ? [0, 0, 0, 0, 0, 0] : known, along = n.slice(3).map((x) => x * seen.near());
     // Forces begin where they act, impulses end there.
     const acts = impulse ? plus(n.slice(0, 3), n.slice(3)) : n.slice(0, 3), from = impulse ? plus(acts, along, -1) : acts;
     return { from, along, acts, long: Math.hypot(...along) };
@@ -125,10 +128,10 @@ function space(stage, run) {
       set(over, { viewBox: `0 0 ${width} ${height}` });
       set(scale, { y: height - 10 });
     }
-    if (following) seen.follow(leading());
+    if (following && !leading().includes(null)) seen.follow(leading());
     const now = seen.now();
     const parts = bodies.flatMap((body) => solids(body, last));
-    render({ parts, thrusts: pushing ? thrusts(last) : [], floor, camera: now, light, away: 0.004 * size, taps, sun, colours, traces: traces.map((points) => ({ points, count: last[0] + 1 })) });
+    render({ parts, thrusts: pushing ? thrusts(last) : [], floor, camera: now, light, away: 0.004 * size, taps, sun, colours, traces: traces.map(({ times, points }) => ({ points, count: reached(times, at(run.time, last)) })) });
     const taken = [];
     for (const arrow of pointed) {
       const { size: strength, label, value, name, impulse } = arrow, { acts, along, long } = ends(arrow, last), fine = thin * seen.near();

@@ -2,10 +2,9 @@
 
 use super::frame::{Frame, Newtons};
 use super::impulse::{self, Rows};
-use super::{Column, hundredths};
+use super::{Column, hundredths, strength};
 use crate::drawing;
 use crate::film::Film;
-use crate::number::significant;
 use serde::Serialize;
 
 /// A force over time.
@@ -79,7 +78,7 @@ fn of(film: &Film, frame: &Frame, acting: &Rows, newtons: &Newtons, impulse: boo
         Arrow {
             name: arrow.name.to_owned(),
             impulse,
-            size: Column::of(pushes.iter().map(|(_, [x, y])| significant(x.hypot(*y)))),
+            size: Column::of(pushes.iter().map(|(_, [x, y])| strength(x.hypot(*y)))),
             numbers: [
                 over(&|at, force| frame.x(at[0] - back * newtons.arrow(force)[0])),
                 over(&|at, force| frame.y(at[1] - back * newtons.arrow(force)[1])),
@@ -94,7 +93,7 @@ fn of(film: &Film, frame: &Frame, acting: &Rows, newtons: &Newtons, impulse: boo
 /// The outline of an arrow from one point to another; nothing if it is too short to be seen.
 pub(crate) fn outline([x1, y1, x2, y2]: [f64; 4]) -> Option<[[f64; 2]; 7]> {
     let length = (x2 - x1).hypot(y2 - y1);
-    if length < SHORTEST {
+    if !(length >= SHORTEST) {
         return None;
     }
     let (ux, uy) = ((x2 - x1) / length, (y2 - y1) / length);
@@ -121,7 +120,7 @@ pub(crate) fn label(
     height: f64,
 ) -> Option<[f64; 2]> {
     let length = (x2 - x1).hypot(y2 - y1);
-    if length < 0.5 * letter {
+    if !(length >= 0.5 * letter) {
         return None;
     }
     let half = 0.3 * letter * characters as f64;

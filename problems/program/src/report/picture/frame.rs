@@ -105,11 +105,13 @@ impl Frame {
         let impulses = all(impulse::impulses, true);
         let drawings = films.clone().flat_map(|film| &film.drawings);
         let shapes = drawings.flat_map(|d| &d.shapes).map(Shape::extent);
+        let paths = films.clone().flat_map(|film| &film.paths);
+        let paths = paths.map(|path| [path.low.x, path.high.x, path.low.y, path.high.y]);
         let pushed = forces.iter().chain(&impulses);
         let pushed = pushed.map(|&[x, y, ..]| [x, x, y, y]);
         // A floor alone is nowhere across.
         let place = |from: f64, to: f64| if from <= to { (from, to) } else { (0.0, 0.0) };
-        let [left, right, low, high] = shapes.chain(pushed).reduce(union)?;
+        let [left, right, low, high] = shapes.chain(paths).chain(pushed).reduce(union)?;
         let ((left, right), (low, high)) = (place(left, right), place(low, high));
         let finite = |lengths: &[f64]| {
             let lengths = lengths.iter().copied();

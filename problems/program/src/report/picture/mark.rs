@@ -1,8 +1,11 @@
 //! Shapes of a scene → marks on the page: circles, polygons and lines, each with its numbers over time.
 
 use super::frame::Frame;
-use super::{Column, Place, hundredths};
-use crate::drawing::{Drawing, Point, Shape};
+use super::{Column, finely, hundredths};
+use crate::drawing::{Point, Shape};
+use crate::film::Film;
+use crate::path::{self, Path};
+use crate::space::Vector;
 use serde::Serialize;
 use std::cell::Cell;
 
@@ -30,13 +33,51 @@ pub(crate) enum Form {
     Polyline,
     /// Everything below y
     Ground,
-    /// The path of x, y so far
-    Trace,
+    /// A path
+    Trace {
+        /// It is drawn stroke by stroke.
+        strokes: Vec<Stroke>,
+    },
     /// A line on the unit length, moved to x, y, turned by degrees clockwise and stretched along.
     Placed {
         /// Joints, x along from 0 to 1, y across.
         line: Vec<Point>,
     },
+}
+
+/// A line that is drawn while time passes: time, s, x and y of every point.
+pub(crate) type Stroke = Vec<[f64; 3]>;
+
+/// The part of a stroke that is drawn from one time to another.
+pub(crate) fn part(stroke: &[[f64; 3]], from: f64, to: f64) -> Vec<Point> {
+    let until = |time: f64| stroke.partition_point(|[t, ..]| *t <= time);
+    // Between two points it goes straight on.
+    let between = |time: f64| {
+        let after = until(time);
+        let ([t, x, y], [end, u, v]) = (stroke[after.checked_sub(1)?], *stroke.get(after)?);
+        let part = (time - t) / (end - t);
+        Some([x + part * (u - x), y + part * (v - y)])
+    };
+    let inner = stroke[until(from)..until(to)]
+        .iter()
+        .map(|[_, x, y]| [*x, *y]);
+    between(from)
+        .into_iter()
+        .chain(inner)
+        .chain(between(to))
+        .collect()
+}
+
+/// The strokes of a path, whose points are seen at these places.
+fn strokes(path: &Path, place: impl Fn(&Vector) -> Point) -> Vec<Stroke> {
+    let seen = |point: &path::Point| {
+        let [x, y] = place(&point.at);
+        [finely(point.time), hundredths(x), hundredths(y)]
+    };
+    let strokes = path.strokes.iter();
+    strokes
+        .map(|stroke| stroke.iter().map(seen).collect())
+        .collect()
 }
 
 /// Zigzags of a spring.
@@ -46,7 +87,9 @@ const TURNS: usize = 16;
 const BRACKET: f64 = 12.0;
 
 /// A mark for each shape, but two for a disc, its rim and its spoke, and for a pivot, its bracket and its pin.
-pub(super) fn marks(drawings: &[Drawing], frame: &Frame) -> Vec<Mark> {
+pub(super) fn marks(film: &Film, frame: &Frame) -> Vec<Mark> {
+    let drawings = &film.drawings;
+    let mut paths = film.paths.iter();
     let Some(first) = drawings.first() else {
         return Vec::new();
     };
@@ -94,7 +137,9 @@ pub(super) fn marks(drawings: &[Drawing], frame: &Frame) -> Vec<Mark> {
                 let longest = lengths.fold(0.0, f64::max);
                 add("rod", spring(frame, longest), &|shape| {
                     let numbers = stretched(shape, before.get(), frame);
-                    if let [_, _, angle, _] = numbers[..] {
+                    if let [_, _, angle, _] = numbers[..]
+                        && angle.is_finite()
+                    {
                         before.set(angle);
                     }
                     numbers
@@ -104,10 +149,12 @@ pub(super) fn marks(drawings: &[Drawing], frame: &Frame) -> Vec<Mark> {
                 add("ground", Form::Polygon, &|shape| bracket(shape, frame));
                 add("pivot", Form::Circle, &circle);
             }
-            Shape::Trace(_) => add("trace", Form::Trace, &|shape| match shape {
-                Shape::Trace([x, y]) => vec![frame.x(*x), frame.y(*y)],
-                _ => Vec::new(),
-            }),
+            Shape::Trace(_) => {
+                let seen = |at: &Vector| [frame.x(at.x), frame.y(at.y)];
+                let strokes = paths.next().map(|path| strokes(path, seen));
+                let strokes = strokes.unwrap_or_default();
+                add("trace", Form::Trace { strokes }, &|_| Vec::new());
+            }
         }
     }
     marks
@@ -198,15 +245,5 @@ fn spring(frame: &Frame, longest: f64) -> Form {
     };
     Form::Placed {
         line: (0..=TURNS).map(joint).collect(),
-    }
-}
-
-impl Mark {
-    /// The first two numbers at the samples up to one: the path so far.
-    pub fn path(&self, last: usize) -> impl Iterator<Item = Point> + '_ {
-        (0..=last).map(|sample| {
-            let place = Place { sample, part: 0.0 };
-            [0, 1].map(|k| self.numbers.get(k).map_or(0.0, |column| column.at(place)))
-        })
     }
 }

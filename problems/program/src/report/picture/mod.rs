@@ -13,10 +13,11 @@ mod stage;
 mod view;
 
 use crate::film::Film;
+use crate::number::significant;
 pub(crate) use arrow::{Arrow, label, outline};
 pub(crate) use column::{Column, Place};
 use frame::{Frame, largest};
-pub(crate) use mark::{Form, Mark};
+pub(crate) use mark::{Form, Mark, Stroke, part};
 pub(crate) use painter::Painter;
 use serde::Serialize;
 pub(crate) use stage::{Stage, stages};
@@ -55,7 +56,7 @@ pub(crate) fn pictures(films: &[&Film]) -> Vec<Option<Picture>> {
         let alike = alike.filter(|other| other.outcome.scene == film.outcome.scene);
         let frame = Frame::around(alike)?;
         let first = film.drawings.first()?;
-        let marks = mark::marks(&film.drawings, &frame);
+        let marks = mark::marks(film, &frame);
         let arrows = arrow::arrows(film, &frame);
         let mut rulers = vec![Ruler::new(frame.ruler(), frame.scale, "m")];
         if !first.arrows.is_empty() && frame.newtons.strongest > 0.0 {
@@ -111,13 +112,22 @@ fn short(x: f64) -> String {
     }
 }
 
-/// To hundredths of a unit, which nobody sees; what is not finite is 0.
+/// A time to nine digits: a path may go round many times.
+fn finely(time: f64) -> f64 {
+    format!("{time:.8e}").parse().unwrap_or(time)
+}
+
+/// To hundredths of a unit, which nobody sees.
 fn hundredths(x: f64) -> f64 {
-    let rounded = (x * 100.0).round() / 100.0;
-    if rounded.is_finite() {
-        rounded + 0.0
+    (x * 100.0).round() / 100.0 + 0.0
+}
+
+/// The size of a force, with the digits that are told; none where it is no number.
+fn strength(size: f64) -> f64 {
+    if size.is_finite() {
+        significant(size)
     } else {
-        0.0
+        f64::NAN
     }
 }
 
@@ -130,7 +140,6 @@ mod tests {
         let texts = [0.3, 0.7, 2.0, 1234.0, 3e-5, 2e7].map(|x| short(nice(x)));
         assert_eq!(texts, ["0.2", "0.5", "2", "1000", "2e-5", "2e7"]);
         assert_eq!(nice(0.0), 1.0);
-        assert_eq!(hundredths(f64::NAN), 0.0);
         assert_eq!(hundredths(-0.001).to_string(), "0");
     }
 }

@@ -7,7 +7,7 @@
 use super::palette::shaded;
 use super::stage::{Body, Thrust};
 use super::view::View;
-use super::{Column, Form, Mark, Place, Stage, hundredths, nice};
+use super::{Column, Place, Stage, Stroke, hundredths, nice};
 use crate::space::{UnitQuaternion, Vector};
 use core::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Write;
@@ -21,8 +21,8 @@ const ROUND: usize = 28;
 pub(crate) struct Painter {
     stage: Stage,
     pub view: View,
-    /// The paths so far, below the solids.
-    pub traces: Vec<Mark>,
+    /// The strokes of every path, below the solids.
+    pub traces: Vec<Vec<Stroke>>,
     size: f64,
     /// Radius of rods, m.
     thin: f64,
@@ -39,30 +39,28 @@ struct Piece {
 }
 
 impl Painter {
-    pub fn new(stage: Stage, samples: usize) -> Self {
+    pub fn new(stage: Stage) -> Self {
         let view = View::of(&stage);
         let edges = stage.high.iter().zip(&stage.low);
         let size = edges.fold(1e-9, |size, (high, low)| f64::max(size, high - low));
         let rods = stage.bodies.iter().filter(|body| body.kind == "rod");
         let rods = rods.count();
-        let trace = |body: &Body| {
-            let seen: Vec<[f64; 2]> = (0..samples)
-                .map(|sample| view.place(joints(body, Place { sample, part: 0.0 })[0]))
-                .collect();
-            Mark {
-                class: "trace",
-                form: Form::Trace,
-                numbers: [0, 1]
-                    .map(|k| Column::of(seen.iter().map(|place| hundredths(place[k]))))
-                    .into(),
-            }
+        let seen = |&[time, x, y, z]: &[f64; 4]| {
+            let [x, y] = view.place(Vector::new(x, y, z)).map(hundredths);
+            [time, x, y]
+        };
+        let strokes = |body: &Body| {
+            let strokes = body.strokes.iter();
+            strokes
+                .map(|stroke| stroke.iter().map(seen).collect())
+                .collect()
         };
         Self {
             traces: stage
                 .bodies
                 .iter()
                 .filter(|body| body.kind == "trace")
-                .map(trace)
+                .map(strokes)
                 .collect(),
             size,
             // Many rods are thin.
@@ -95,6 +93,9 @@ impl Painter {
             sample: 0,
             part: 0.0,
         };
+        if !is_somewhere(body, start) {
+            return None;
+        }
         let turn = turn(body, start);
         let [x, y, z] = [Vector::x(), Vector::y(), Vector::z()].map(|axis| turn * axis);
         let origin = joints(body, start)[0];
@@ -134,6 +135,7 @@ impl Painter {
     /// What is in front of the paths: solids that move, and walls around them.
     pub fn above(&self, place: Place, out: &mut String) {
         let bowls = self.stage.bodies.iter().filter(|body| body.kind == "bowl");
+        let bowls = bowls.filter(|bowl| is_somewhere(bowl, place));
         let walls = bowls.map(|bowl| self.wall(joints(bowl, place)[0], bowl.size[0]));
         let mut pieces = self.pieces(place, moves);
         pieces.extend(walls);
@@ -141,7 +143,9 @@ impl Painter {
     }
 
     fn pieces(&self, place: Place, which: impl Fn(&Body) -> bool) -> Vec<Piece> {
-        let solid = |body: &&Body| !["ground", "trace"].contains(&body.kind) && which(body);
+        let solid = |body: &&Body| {
+            !["ground", "trace"].contains(&body.kind) && which(body) && is_somewhere(body, place)
+        };
         let bodies = self.stage.bodies.iter().filter(solid);
         bodies.map(|body| self.piece(body, place)).collect()
     }
@@ -446,6 +450,14 @@ fn moves(body: &Body) -> bool {
     body.places
         .iter()
         .any(|column| matches!(column, Column::Varying(_)))
+}
+
+/// Whether a body has a place, a size and an attitude.
+fn is_somewhere(body: &Body, place: Place) -> bool {
+    let columns = body.places.iter().chain(&body.turn);
+    let numbers = columns.map(|column| column.at(place));
+    let mut numbers = numbers.chain(body.size.iter().copied());
+    numbers.all(f64::is_finite)
 }
 
 /// Where a body's origin or joints are.

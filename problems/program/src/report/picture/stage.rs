@@ -2,15 +2,16 @@
 //!
 //! What the page draws with the light on it, and frames project.
 
-use super::Column;
 use super::arrow::is_false;
 use super::frame::{self, Newtons, largest};
 use super::impulse::{self, Rows};
+use super::{Column, finely, strength};
 use crate::drawing::Arrow;
 use crate::film::Film;
 use crate::number::significant;
 use crate::outcome::Outcome;
-use crate::space::{Solid, Space, UnitQuaternion, Vector};
+use crate::path::{self, Path};
+use crate::space::{Solid, UnitQuaternion, Vector};
 use serde::Serialize;
 
 /// A scene in space over time.
@@ -42,6 +43,9 @@ pub(crate) struct Body {
     /// The quaternion of its attitude, scalar part first; nothing if it does not show.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub turn: Vec<Column>,
+    /// Of a path: time, s, and x, y, z, m, of every point of its strokes.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub strokes: Vec<Vec<[f64; 4]>>,
 }
 
 /// A force over time.
@@ -79,6 +83,10 @@ fn stage<'a>(film: &Film, alike: impl Iterator<Item = &'a Film> + Clone) -> Stag
             }
         }
     }
+    for path in alike.clone().flat_map(|film| &film.paths) {
+        around.hold(path.low, Vector::zeros());
+        around.hold(path.high, Vector::zeros());
+    }
     let thrusts = |kind: Kind| -> Vec<(Vector, Vector)> {
         let thrusts = alike.clone().flat_map(|film| all_thrusts(film, kind));
         thrusts.filter(|(_, force)| force.norm() > 0.0).collect()
@@ -105,7 +113,7 @@ fn stage<'a>(film: &Film, alike: impl Iterator<Item = &'a Film> + Clone) -> Stag
     let mut arrows = self::arrows(film, Kind::Force, &newtons, size);
     arrows.extend(self::arrows(film, Kind::Impulse, &blows, size));
     Stage {
-        bodies: bodies(&film.spaces, size),
+        bodies: bodies(film, size),
         cut: arrows
             .iter()
             .any(|arrow| !arrow.impulse && largest(&arrow.size) > newtons.most()),
@@ -158,21 +166,24 @@ impl Box3 {
 /// To a hundred-thousandth of the size of all.
 fn near(x: f64, size: f64) -> f64 {
     let digits = 10_f64.powf((5.0 - size.log10()).floor());
-    let rounded = (x * digits).round() / digits;
-    if rounded.is_finite() {
-        rounded + 0.0
-    } else {
-        0.0
-    }
+    (x * digits).round() / digits + 0.0
 }
 
-fn bodies(spaces: &[Space], size: f64) -> Vec<Body> {
+fn bodies(film: &Film, size: f64) -> Vec<Body> {
+    let spaces = &film.spaces;
+    let mut paths = film.paths.iter();
     let Some(first) = spaces.first() else {
         return Vec::new();
     };
-    let body = |(i, solid): (usize, &Solid)| {
+    let mut body = |(i, solid): (usize, &Solid)| {
+        let path = paths.by_ref();
+        let path = path.take(usize::from(matches!(solid, Solid::Trace(_))));
         let over = || spaces.iter().map(move |space| &space.solids[i]);
-        let places = solid.places().len();
+        // Where a path is, its strokes say.
+        let places = match solid {
+            Solid::Trace(_) => 0,
+            solid => solid.places().len(),
+        };
         let coordinate = |k: usize, axis: usize| {
             let numbers =
                 over().map(|solid| solid.places().get(k).map_or(0.0, |place| place[axis]));
@@ -186,9 +197,19 @@ fn bodies(spaces: &[Space], size: f64) -> Vec<Body> {
                 .map(|(k, axis)| coordinate(k, axis))
                 .collect(),
             turn: columns(&turns(over())),
+            strokes: path.flat_map(|path| strokes(path, size)).collect(),
         }
     };
-    first.solids.iter().enumerate().map(body).collect()
+    first.solids.iter().enumerate().map(&mut body).collect()
+}
+
+fn strokes(path: &Path, size: f64) -> impl Iterator<Item = Vec<[f64; 4]>> {
+    let point = move |point: &path::Point| {
+        let [x, y, z] = [0, 1, 2].map(|axis| near(point.at[axis], size));
+        [finely(point.time), x, y, z]
+    };
+    let strokes = path.strokes.iter();
+    strokes.map(move |stroke| stroke.iter().map(point).collect())
 }
 
 /// Attitudes of one solid over time; what has turned, as the sum of small turns, of a ball whose rates alone are known.
@@ -197,6 +218,9 @@ fn turns<'a>(solids: impl Iterator<Item = &'a Solid>) -> Vec<UnitQuaternion<f64>
     let mut before: Option<Vector> = None;
     let attitude = |solid: &Solid| match solid {
         Solid::RolledBall(_, _, angles) => {
+            if !angles.iter().all(|angle| angle.is_finite()) {
+                return Some(UnitQuaternion::from_scaled_axis(*angles));
+            }
             let more = before.map_or(Vector::zeros(), |before| angles - before);
             before = Some(*angles);
             turn = UnitQuaternion::from_scaled_axis(more) * turn;
@@ -292,7 +316,7 @@ fn arrows(film: &Film, kind: Kind, newtons: &Newtons, size: f64) -> Vec<Thrust> 
                 Kind::Impulse => format!("impulse of {}", arrow.name),
             },
             impulse: kind == Kind::Impulse,
-            size: Column::of(thrusts.iter().map(|(_, force)| significant(force.norm()))),
+            size: Column::of(thrusts.iter().map(|(_, force)| strength(force.norm()))),
             numbers: at.chain(along).collect(),
         })
     };

@@ -153,6 +153,11 @@ const APART: f64 = 1.0 / 2000.0;
 /// Columns of a picture, about: what lies within one is seen as what it spans.
 const COLUMNS: f64 = 700.0;
 
+/// The line through points over this time, of which so many are left as a picture shows.
+pub(in crate::report) fn shown_line(points: &[(f64, f64)], duration: f64) -> Vec<(f64, f64)> {
+    thinned(points, duration / COLUMNS)
+}
+
 /// Of many points in a column the first, the lowest, the highest and the last: a fast oscillation fills what it spans, and never looks
 /// like a slow one.
 fn thinned(points: &[(f64, f64)], column: f64) -> Vec<(f64, f64)> {
@@ -220,15 +225,42 @@ pub(super) fn pieces(
     quantity: &Quantity,
 ) -> Vec<Vec<(f64, f64)>> {
     let d = outcome.description;
-    let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
-    let mut phase = None;
     // What is far below the tolerance is rounding, however large a panel would show it.
     let sizes = outcome.samples.iter();
     let sizes = sizes.filter_map(|sample| Some(quantity.of(d, sample)?.abs()));
     let tolerance = quantity.tolerance(outcome);
     let flat = tolerance.is_some_and(|it| sizes.fold(0.0, f64::max) < ROUNDING * it);
     let value = |sample: &Sample| Some(quantity.of(d, sample)? * if flat { 0.0 } else { 1.0 });
-    let point = |sample: &Sample| Some((over.of(d, sample)?, value(sample)?));
+    let pieces = lines(outcome, |sample| {
+        Some((over.of(d, sample)?, value(sample)?))
+    });
+    match over {
+        Quantity::Time => seen(outcome, pieces),
+        _ => pieces,
+    }
+}
+
+/// Lines over time as a picture shows them.
+fn seen(outcome: &Outcome, lines: Vec<Vec<(f64, f64)>>) -> Vec<Vec<(f64, f64)>> {
+    let lines = lines.iter();
+    lines
+        .map(|line| shown_line(line, outcome.lasts()))
+        .collect()
+}
+
+/// A number over time, as a picture shows it, broken where it does not exist or the phase changes.
+pub(in crate::report) fn over_time(
+    outcome: &Outcome,
+    value: impl Fn(&Sample) -> Option<f64>,
+) -> Vec<Vec<(f64, f64)>> {
+    let lines = lines(outcome, |sample| Some((sample.time, value(sample)?)));
+    seen(outcome, lines)
+}
+
+/// Points of the motion, broken where one does not exist or the phase changes.
+fn lines(outcome: &Outcome, point: impl Fn(&Sample) -> Option<(f64, f64)>) -> Vec<Vec<(f64, f64)>> {
+    let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
+    let mut phase = None;
     for (of, sample) in drawn(outcome) {
         let Some(point) = point(sample) else {
             phase = None;
@@ -240,12 +272,6 @@ pub(super) fn pieces(
         phase = Some(of);
         if let Some(piece) = pieces.last_mut() {
             piece.push(point);
-        }
-    }
-    if let (Quantity::Time, Some(first), Some(last)) = (over, outcome.first(), outcome.last()) {
-        let column = (last.time - first.time) / COLUMNS;
-        for piece in &mut pieces {
-            *piece = thinned(piece, column);
         }
     }
     pieces

@@ -14,6 +14,7 @@ mod key;
 mod panel;
 
 pub(super) use axis::{Axis, CONSTANT};
+pub(super) use curves::{over_time, shown_line};
 
 use crate::outcome::Outcome;
 use crate::quantity::{Quantity, Show};
