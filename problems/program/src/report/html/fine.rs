@@ -26,7 +26,7 @@ pub(super) fn lines(outcome: &Outcome, of: impl Fn(&Sample) -> Option<f64>) -> L
 
 /// Of curves on the same axes, those that are drawn with lines of their own, as the values at the times of the page do not show what
 /// one of them spans.
-pub(super) fn fine<'v>(times: &[f64], curves: &[(&'v [Option<f64>], Lines)]) -> Vec<Option<Fine>> {
+pub(super) fn fine(times: &[f64], curves: &[(&[Option<f64>], Lines)]) -> Vec<Option<Fine>> {
     let coarse = curves
         .iter()
         .flat_map(|(values, _)| values.iter().copied().flatten());
