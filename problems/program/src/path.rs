@@ -11,6 +11,10 @@ use std::collections::HashSet;
 const CELLS: f64 = 2048.0;
 /// Points that are kept, at most; of more the cells are too small.
 const MOST: usize = 60_000;
+/// Within a step a path goes straight where it is off by no more than this share of a cell,
+const STRAIGHT: f64 = 0.5;
+/// and when it is drawn by no more than this one: a circle must not look like a polygon.
+const ROUND: f64 = 0.25;
 /// How often a step is halved at most where a path bends.
 const HALVINGS: usize = 12;
 
@@ -108,7 +112,7 @@ impl Path {
     pub(crate) fn straighten(&mut self) {
         for stroke in &mut self.strokes {
             let mut kept = vec![stroke[0]];
-            straightened(stroke, self.cell, &mut kept);
+            straightened(stroke, ROUND * self.cell, &mut kept);
             *stroke = kept;
         }
     }
@@ -119,7 +123,7 @@ impl Path {
         match known {
             [true, true, true] => {
                 let bend = between.at - 0.5 * (from.at + to.at);
-                bend.amax() <= self.cell
+                bend.amax() <= STRAIGHT * self.cell
             }
             [from, between, to] => from == between && between == to,
         }
