@@ -142,12 +142,15 @@ impl<T: Scalar> Run<T> {
             _ => None,
         });
         let composites = &mut self.locator.polynomials.composites;
-        // Located by the forces themselves: roots of others before it are those of weights that belong to another instant.
-        if let (Some(k), Some((composite, value))) = (fallen, &critical)
+        // Located by the forces themselves: roots of others before it are those of weights that belong to another instant. Forces that grow beyond all bounds
+        // there keep theirs until then.
+        if let Some(k) = fallen
             && composites[k].falls_after.is_some()
-            && *value <= ROOT
+            && critical.as_ref().is_none_or(|(_, value)| *value <= ROOT)
         {
-            composites[k].parts.clone_from(&composite.parts);
+            if let Some((composite, _)) = critical {
+                composites[k].parts = composite.parts;
+            }
             return false;
         }
         let within = looked > 0.0 && self.switcher.redundant.has_open();
@@ -223,7 +226,12 @@ impl<T: Scalar> Run<T> {
         // What is nearer to its border than roots are may be what has just ended.
         self.switcher.redundant.follow(&mut self.dynamics);
         // Its value, which has been located, is known to less than the margin of the programme.
-        let falls = self.critical().is_some_and(|(_, value)| value < ROOT);
+        let composites = &self.locator.polynomials.composites;
+        let mut guards = self.locator.fallen.iter();
+        let located = guards.any(
+            |guard| matches!(guard, Guard::Composite(k) if composites[*k].falls_after.is_some()),
+        );
+        let falls = located || self.critical().is_some_and(|(_, value)| value < ROOT);
         let keeps = self.switcher.redundant.has_open() && !falls;
         let turns =
             keeps || self.switcher.redundant.turn(&mut self.dynamics, ROOT) || self.turns_soon()?;

@@ -114,6 +114,7 @@ mod shared_loads;
 mod side_by_side;
 mod sized_forces;
 mod skate;
+mod skate_at_wall;
 mod sling;
 mod slinky;
 mod slips;
