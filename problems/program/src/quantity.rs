@@ -219,9 +219,10 @@ fn is_expression(plain: &str, d: &Description) -> bool {
         let word = &rest[begin..];
         let (word, after) = word.split_at(word.find(|c| !is_of_word(c)).unwrap_or(word.len()));
         let is_number = word.starts_with(|c: char| c.is_ascii_digit());
-        let is_known = match after.starts_with('(') {
-            true => FUNCTIONS.contains(&word) || OF_ITEMS.contains(&word),
-            false => word == "pi" || names().any(|name| name == word || is_element(name, word)),
+        let is_known = match after.chars().next() {
+            Some('(') => FUNCTIONS.contains(&word) || OF_ITEMS.contains(&word),
+            Some('[') => names().any(|name| is_element(name, word)),
+            _ => word == "pi" || names().any(|name| name == word),
         };
         if !(is_number || is_known) {
             return false;

@@ -1,6 +1,6 @@
 //! Curves over time that need more points than the samples of a page are: those of fast oscillations.
 
-use super::curves::told;
+use super::digits::told;
 use crate::outcome::{Outcome, Sample};
 use crate::report::picture::{Column, Place};
 use crate::report::plot::{CONSTANT, over_time};

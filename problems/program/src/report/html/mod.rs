@@ -5,6 +5,7 @@
 mod curves;
 mod data;
 mod difference;
+mod digits;
 mod equations;
 mod fine;
 mod tables;
