@@ -10,7 +10,7 @@ use super::least_norm::Freedom;
 use crate::arithmetic::Scalar;
 use nalgebra::{DMatrix, DVector};
 
-/// A force is open if one that has no effect changes it by more than this, relative.
+/// A bound depends on forces that are open if one of them changes it by more than this, relative.
 const OPEN: f64 = 1e-9;
 
 /// Bounds are compared with this share of the largest at least: the size of one may be that of a coordinate that hardly has any inertia.
@@ -61,9 +61,8 @@ impl<T: Scalar> ForceBounds<T> {
         self.exact.clear();
     }
 
-    /// Adds s ≥ 0, or s₀ ≥ √(s₁² + s₂²), of `forces` of least norm. False, and nothing happens, if none of these is open, or was before forces were
-    /// chosen; its size is that of its terms, and `least_size` at least. At an instant what is open may cancel in a bound, as in μN − F where forces along the
-    /// edge of the cone have no effect: it is one of the same bounds as before and after.
+    /// Adds s ≥ 0, or s₀ ≥ √(s₁² + s₂²), of `forces` of least norm. False, and nothing happens, if no part of it is open, or was before forces were
+    /// chosen; its size is that of its terms, and `least_size` at least.
     pub(crate) fn add<const N: usize>(
         &mut self,
         rows: [Linear<'_, T>; N],
@@ -71,14 +70,13 @@ impl<T: Scalar> ForceBounds<T> {
         freedom: &Freedom<T>,
         least_size: impl FnOnce() -> f64,
     ) -> bool {
-        let is_open = |&(i, factor): &(usize, T)| {
-            let mut row = freedom.whole_row(i).iter();
-            factor.value() != 0.0 && row.any(|part| part.value().abs() > OPEN)
-        };
-        if !rows.iter().any(|(terms, _)| terms.iter().any(is_open)) {
+        let changes = rows.map(|(terms, _)| change(terms, |i| freedom.row(i)));
+        let is_open = |(change, _): &(DVector<f64>, f64)| change.amax() > OPEN;
+        let was_open =
+            |(terms, _): &Linear<'_, T>| is_open(&change(terms, |i| freedom.whole_row(i)));
+        if !changes.iter().any(is_open) && !rows.iter().any(was_open) {
             return false;
         }
-        let changes = rows.map(|(terms, _)| change(terms, |i| freedom.row(i)));
         let made_of = rows.iter().map(|(terms, constant)| {
             let terms = terms.iter();
             let parts = terms.map(|&(i, a)| (a * forces[i]).value().abs());
