@@ -347,20 +347,20 @@ impl<T: Scalar> Dynamics<T> {
 
     fn residual(&self, level: Level, state: &[T]) -> Residual {
         let mut worst = Residual::default();
-        for &row in self.acting_rows() {
-            let Some(place) = Self::residual_place(&self.description().rows[row], level) else {
+        let compiled = &self.modes[self.current];
+        let read = |place: ValueRef| place.read(&compiled.constants, &self.nodes).value();
+        for &row in &compiled.acting {
+            let terms = &self.description.rows[row];
+            let Some(place) = Self::residual_place(terms, level) else {
                 continue;
             };
-            let value = self.motion(place).value();
-            let sizes = self.description().rows[row].jacobian.iter();
-            let size = sizes
-                .map(|&(j, place)| self.motion(place).value().abs() * self.size_of(j, state))
-                .fold(0.0, f64::max);
-            let relative = if value == 0.0 {
-                0.0
-            } else {
-                value.abs() / size
-            };
+            let value = read(place);
+            if value == 0.0 {
+                continue;
+            }
+            let sizes = terms.jacobian.iter();
+            let sizes = sizes.map(|&(j, place)| read(place).abs() * self.size_of(j, state));
+            let relative = value.abs() / sizes.fold(0.0, f64::max);
             if !(relative <= worst.relative) {
                 worst = Residual {
                     relative,

@@ -192,7 +192,7 @@ impl<T: Scalar> Run<T> {
                 self.finish(stop);
             }
             Hit::Guards(_) => {
-                if !self.only_creeps(end)? {
+                if !self.only_creeps(end)? && !self.only_residuals_fall(end) {
                     self.count_switch()?;
                     if !self.only_shares_otherwise()? {
                         self.leave_mode()?;

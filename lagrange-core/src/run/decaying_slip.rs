@@ -7,10 +7,13 @@
 //! there. A slip of two components has no guard, and is not looked at for its rest ([`super::rest`]).
 
 use super::Run;
-use crate::arithmetic::Scalar;
+use super::guard_polynomials::GuardPolynomials;
+use super::touching::ROUNDING as UNITS;
+use crate::arithmetic::{Scalar, rounding};
 use crate::error::Error;
 use crate::integrate::polynomial_value as value;
 use crate::integrate::{Method, polynomial_derivative as slope};
+use crate::mode::{Direction, FrictionMode};
 use crate::modes::guard::{self, Guard};
 
 /// A slip that passes zero more slowly per step than so many errors, or is smaller at both ends of the step, passes by its error.
@@ -21,6 +24,9 @@ const ROUNDING: f64 = 1e-12;
 const AT_LIMIT: f64 = 1e3;
 /// A friction as far from its limit as this, relative, is not at it, whatever its errors are.
 const OFF_LIMIT: f64 = 1e-2;
+/// A slip turns before zero where it is more than half of its slope squared over its bend, as (1 − t)² is just so. Errors of this share of that make it seem to
+/// pass.
+const TURNS: f64 = 0.05;
 /// Two guards are multiples of each other to this share.
 const SAME: f64 = 1e-6;
 
@@ -62,6 +68,58 @@ impl<T: Scalar> Run<T> {
             }
         }
         Ok(true)
+    }
+
+    /// Whether nothing has fallen at part `end` of the step, where the motion is now, but slips that rows drive, and that turn before zero: a follower that comes to
+    /// rest on its cam as smoothly as (1 − t)² seems to turn back before, by what the step has left of the rates of rows. These go on.
+    pub(super) fn only_residuals_fall(&mut self, end: f64) -> bool {
+        let polynomials = &self.locator.polynomials;
+        let slips = |&guard: &Guard| {
+            matches!(guard, Guard::Slip(f) if !self.turns(f)) && !polynomials.is_lowered(guard)
+        };
+        let located = self.locator.rests.is_empty() && self.locator.fallen.iter().all(slips);
+        if !located || self.dynamics.acting_rows().is_empty() {
+            return false;
+        }
+        // How a slip of this size goes on from the root: whether it turns before it would be zero.
+        let turns = |polynomials: &GuardPolynomials, guard: Guard, slip: f64| {
+            let curve = polynomials.of(guard).unwrap_or_default();
+            let slope = slope(curve, end);
+            slip * bend(curve, end) > TURNS * slope * slope
+        };
+        let mut fallen = self.locator.fallen.iter();
+        if !fallen.all(|&guard| turns(polynomials, guard, self.margin())) {
+            return false;
+        }
+        self.hold_velocities();
+        self.tape_of_all_rows();
+        let (polynomials, mode) = (&self.locator.polynomials, &self.now.mode);
+        let drives = |&guard: &Guard| {
+            let Guard::Slip(f) = guard else { return false };
+            let FrictionMode::Slip(sliding) = mode.frictions[f] else {
+                return false;
+            };
+            let Direction::Fixed([sign, _]) = sliding.direction else {
+                return false;
+            };
+            let mut slips = self.rates_of_slip(f);
+            slips.all(|(slip, size)| {
+                let least = rounding::<T>(UNITS) * size;
+                let slip = sign * slip;
+                slip > -least && turns(polynomials, guard, slip.max(least))
+            })
+        };
+        if !self.locator.fallen.iter().all(drives) {
+            let before = &self.switcher.before_holding.v;
+            self.now.state.v.copy_from_slice(before);
+            return false;
+        }
+        for f in 0..self.now.mode.frictions.len() {
+            if self.locator.fallen.contains(&Guard::Slip(f)) {
+                self.let_pass(f);
+            }
+        }
+        true
     }
 
     /// Error of velocities. Fixed steps do not grow until they are bounded by stability: their slips decay to rounding.
@@ -148,4 +206,10 @@ fn multiple(curve: &[f64], of: &[f64]) -> Option<f64> {
     let size = curve.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
     let same = curve.iter().zip(of).map(off).all(|off| off <= SAME * size);
     (same && times > 0.0).then_some(times)
+}
+
+/// Σ k (k − 1) cₖ sᵏ⁻²
+fn bend(curve: &[f64], s: f64) -> f64 {
+    let terms = curve.iter().enumerate().skip(2).rev();
+    terms.fold(0.0, |sum, (k, c)| sum * s + (k * (k - 1)) as f64 * c)
 }

@@ -31,8 +31,8 @@ const RISE: f64 = 0.5;
 /// π/2, and a quotient that has not been felt until then, as sin(x)/x, never is.
 const LEAST: f64 = f64::EPSILON;
 
-/// What is divided by, or a root of positions is taken of, and changes by less than this share over a step, by its first two rates, is looked at no closer.
-const FAR: f64 = 0.5;
+/// A root of positions of what changes by less than this share over a step, by its first two rates, is looked at no closer.
+const FAR: f64 = 0.9;
 
 /// Lower powers grow by no more than a series of a loose tolerance follows.
 const HIGH: f64 = 8.0;
@@ -53,6 +53,8 @@ pub(super) struct Hidden {
     arguments: Vec<Argument>,
     angles: Vec<Angle>,
     roots: Vec<Root>,
+    /// The order of the method for which powers know their growth.
+    order: usize,
 }
 
 /// The argument of an exponential function, or the base of a power.
@@ -78,6 +80,8 @@ enum Function {
         exponent: f64,
         /// How large the base has been at most.
         largest: f64,
+        /// By what the base changes where the power grows by the rise that a method follows.
+        growth: f64,
     },
 }
 
@@ -134,14 +138,13 @@ impl Hidden {
             (argument, function)
         });
         let high = |&(_, exponent): &(usize, f64)| !(0.0..HIGH).contains(&exponent);
-        let powers = acting.powers().filter(high).map(|(base, exponent)| {
-            let largest = 0.0;
-            (base, Function::Power { exponent, largest })
-        });
-        let logarithms = acting.logarithms().map(|argument| {
-            let (exponent, largest) = (-HIGH, 0.0);
-            (argument, Function::Power { exponent, largest })
-        });
+        let powers = acting
+            .powers()
+            .filter(high)
+            .map(|(base, exponent)| (base, Function::power(exponent)));
+        let logarithms = acting
+            .logarithms()
+            .map(|argument| (argument, Function::power(-HIGH)));
         let arctangents = acting.arctangents().map(|x| (x, Function::Arctangent));
         let functions = exponentials.chain(powers).chain(logarithms);
         let mut arguments: Vec<(usize, Function)> = functions.chain(arctangents).collect();
@@ -190,6 +193,7 @@ impl Hidden {
             arguments: arguments.collect(),
             angles: angles.collect(),
             roots: roots.collect(),
+            order: 0,
         })
     }
 
@@ -221,6 +225,12 @@ impl Hidden {
         order: usize,
     ) -> f64 {
         let rise = RISE * order as f64;
+        if self.order != order {
+            self.order = order;
+            self.arguments
+                .iter_mut()
+                .for_each(|a| a.function.set_rise(rise));
+        }
         let piece = end / PLACES as f64;
         let change = piece * step.h.value();
         step.at_start(&mut self.start);
@@ -345,6 +355,27 @@ impl Root {
     }
 }
 
+impl Function {
+    /// A power of what has not been seen yet.
+    fn power(exponent: f64) -> Self {
+        Function::Power {
+            exponent,
+            largest: 0.0,
+            growth: 1.0,
+        }
+    }
+
+    /// Takes the rise of the exponent that a method follows.
+    fn set_rise(&mut self, rise: f64) {
+        if let Function::Power {
+            exponent, growth, ..
+        } = self
+        {
+            *growth = (rise / *exponent).exp();
+        }
+    }
+}
+
 impl Argument {
     /// Says where it may go over a step, so that its function does not grow by more than the exponential of `rise`. The argument is known where the
     /// step begins, and its `change` over the step by its first two rates.
@@ -360,16 +391,19 @@ impl Argument {
                 let least = f64::max(size * (-rise / HIGH).exp(), 1.0);
                 (size > FLAT).then_some(Border::Least(least))
             }
-            Function::Power { exponent, largest } => {
+            Function::Power {
+                exponent,
+                largest,
+                growth,
+            } => {
                 *largest = largest.max(size);
-                let growth = (rise / *exponent).exp();
                 if *exponent < 0.0 {
-                    let least = size * growth;
-                    let is_near = change >= FAR * size && least > LEAST * *largest;
+                    let least = size * *growth;
+                    let is_near = size - change < least && least > LEAST * *largest;
                     is_near.then_some(Border::Least(least))
                 } else {
                     let scale = if *largest > 0.0 { *largest } else { 1.0 };
-                    let most = size.max(scale * (NEGLIGIBLE / *exponent).exp()) * growth;
+                    let most = size.max(scale * (NEGLIGIBLE / *exponent).exp()) * *growth;
                     (size + change > most).then_some(Border::Most(most))
                 }
             }

@@ -12,7 +12,7 @@ use super::Run;
 use super::hit::Hit;
 use super::passage::COEFFICIENTS;
 use crate::arithmetic::{Scalar, epsilon};
-use crate::dynamics::Dynamics;
+use crate::dynamics::{Dynamics, Work};
 use crate::effects::{Effects, Item};
 use crate::error::Error;
 use crate::integrate::taylor;
@@ -81,6 +81,8 @@ pub(super) struct RankWatch {
     /// How many rows acted at the last look.
     acting: usize,
     scaled: Vec<f64>,
+    /// The work that had been done at the last look: as long as it is the same the pivots are those of the last evaluation.
+    measured: Option<Work>,
 }
 
 impl RankWatch {
@@ -107,6 +109,7 @@ impl RankWatch {
             aside: vec![false; m],
             acting: 0,
             scaled: vec![0.0; m * n],
+            measured: None,
             rows,
         }
     }
@@ -122,6 +125,7 @@ impl RankWatch {
         self.masses.fill(0.0);
         self.inverse_roots.fill(1.0);
         self.lighter.fill(0.0);
+        self.measured = None;
     }
 
     /// [`Self::reach`] at the start of a run, before it is known which rows will be held aside: those that are then are no loss of rank.
@@ -135,9 +139,11 @@ impl RankWatch {
         if self.rows.is_empty() {
             return 1.0;
         }
-        self.take_masses(dynamics);
-        self.take_rows_aside(dynamics);
-        self.measure(dynamics);
+        let heavier = self.take_masses(dynamics);
+        let others = self.take_rows_aside(dynamics);
+        if heavier || others || self.measured != Some(dynamics.work()) {
+            self.measure(dynamics);
+        }
         for (largest, pivot) in self.largest.iter_mut().zip(&self.pivots) {
             *largest = largest.max(*pivot);
         }
@@ -165,12 +171,18 @@ impl RankWatch {
         nearest
     }
 
-    fn take_masses<T: Scalar>(&mut self, dynamics: &Dynamics<T>) {
+    /// Takes the inertias where they are larger than ever; whether one is.
+    fn take_masses<T: Scalar>(&mut self, dynamics: &Dynamics<T>) -> bool {
         let d = dynamics.description();
-        for &(i, j, place) in d.mass {
-            if i == j {
-                self.masses[i] = self.masses[i].max(dynamics.motion(place).value());
+        let mut heavier = false;
+        for &(i, _, place) in d.mass.iter().filter(|(i, j, _)| i == j) {
+            let mass = dynamics.motion(place).value();
+            if mass > self.masses[i] {
+                (self.masses[i], heavier) = (mass, true);
             }
+        }
+        if !heavier {
+            return false;
         }
         // The four elements of an attitude are of one kind: which of them has hardly any inertia depends on where the body is turned.
         for first in d.constraints.iter().filter_map(|c| c.attitude) {
@@ -189,6 +201,7 @@ impl RankWatch {
             self.largest.fill(0.0);
             self.lighter.copy_from_slice(&self.masses);
         }
+        true
     }
 
     /// Whether other rows than at the last look are held aside because other rows act: a body that rests on a contact and by friction needs no rod, and the
@@ -199,18 +212,22 @@ impl RankWatch {
             && pairs.any(|(aside, &row)| *aside != dynamics.holds_aside(row))
     }
 
-    fn take_rows_aside<T: Scalar>(&mut self, dynamics: &Dynamics<T>) {
-        if self.has_other_rows(dynamics) {
+    /// Takes which rows are held aside; whether they are others.
+    fn take_rows_aside<T: Scalar>(&mut self, dynamics: &Dynamics<T>) -> bool {
+        let others = self.has_other_rows(dynamics);
+        if others {
             self.largest.fill(0.0);
         }
         self.acting = dynamics.acting_rows().len();
         for (aside, &row) in self.aside.iter_mut().zip(&self.rows) {
             *aside = dynamics.holds_aside(row);
         }
+        others
     }
 
     /// Pivots at the state that `dynamics` has evaluated.
     fn measure<T: Scalar>(&mut self, dynamics: &Dynamics<T>) {
+        self.measured = Some(dynamics.work());
         let d = dynamics.description();
         let n = d.coordinates.len();
         self.scaled.fill(0.0);

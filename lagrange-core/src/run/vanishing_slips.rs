@@ -12,13 +12,14 @@ use crate::trajectory::State;
 
 impl<T: Scalar> Run<T> {
     /// A contact that closes without impact carries frictions whose slip nobody has looked at, and may end slips that its rate is
-    /// part of: a stop that carries what rubs against it.
+    /// part of: a stop that carries what rubs against it. So may the end of a piece of a law that drives what rubs: a follower comes to rest on its cam as
+    /// smoothly as (1 − t)³, and its slip does not pass zero.
     pub(super) fn rest_where_slip_vanishes(&mut self, facts: &mut SwitchFacts) {
         let d = self.description();
-        let closes = facts.arriving.contains(&true);
+        let ends = facts.arriving.contains(&true) || facts.balanced.contains(&true);
         let wakes = |run: &Self, facts: &SwitchFacts, f: usize| {
             !facts.resting[f]
-                && (closes || run.now.mode.frictions[f] == FrictionMode::Inactive)
+                && (ends || run.now.mode.frictions[f] == FrictionMode::Inactive)
                 && facts.may_act(f, d, run.dynamics.effects())
         };
         if !(0..d.frictions.len()).any(|f| wakes(self, facts, f)) {
@@ -195,7 +196,7 @@ impl<T: Scalar> Run<T> {
 
     /// Takes away what the run has left of the rates of rows that hold, where it can be: of a wheel that has rolled along one surface it would be
     /// its slip on the next.
-    fn hold_velocities(&mut self) {
+    pub(super) fn hold_velocities(&mut self) {
         let State { q, v, .. } = &mut self.now.state;
         let before = &mut self.switcher.before_holding.v;
         before.copy_from_slice(v);
@@ -234,7 +235,7 @@ impl<T: Scalar> Run<T> {
     }
 
     /// [`Self::rate`] of every component of the slip of friction `f`.
-    fn rates_of_slip(&self, f: usize) -> impl Iterator<Item = (f64, f64)> {
+    pub(super) fn rates_of_slip(&self, f: usize) -> impl Iterator<Item = (f64, f64)> {
         let friction = &self.description().frictions[f];
         let rows = friction.rows();
         rows.map(|row| self.rate(row))

@@ -202,6 +202,7 @@ impl<T: Scalar> Decider<T> {
         for order in [LOW_ORDER.min(moment.order), moment.order] {
             dynamics.series(t, q, v, order)?;
             self.decision.expanded = serves && order == moment.order;
+            self.take_signs_that_begin(dynamics, here, order)?;
             self.press_as_forces_begin(dynamics, here, order);
             let mut goes_on = self.judge(dynamics, here, order);
             if goes_on == Some(false) && self.doubts_branches(dynamics, here, order)? {
@@ -219,6 +220,60 @@ impl<T: Scalar> Decider<T> {
             }
         }
         self.keeps_bounds_later(dynamics, here, moment.order)
+    }
+
+    /// Where the force of a constraint that presses a friction which sticks vanishes at the instant, and is not determined, it presses with the sign that it has a
+    /// little later: how forces can share what comes follows from that. `dynamics` holds the series of the moment, and its values, also afterwards.
+    fn take_signs_that_begin(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        here: SwitchContext<'_, T>,
+        order: usize,
+    ) -> Result<(), EvaluationError> {
+        if self.composites.is_empty() || !self.redundant.has_unknown_signs(dynamics) {
+            return Ok(());
+        }
+        let EvaluationPoint { t, q, v, .. } = here.moment;
+        let expanded = self.decision.expanded;
+        let known = self.look_later(dynamics, here, order);
+        let turns = known && self.redundant.take_signs_of_later(dynamics);
+        dynamics.value(t, q, v)?;
+        if turns {
+            self.redundant.follow(dynamics);
+            self.composites.clear();
+            match self.redundant.critical(BORDER) {
+                Some(composite) => self.composites.push(composite),
+                None => {
+                    let composite = |(guard, _): &(Guard, usize)| *guard == Guard::Composite(0);
+                    self.questions.retain(|question| !composite(question));
+                }
+            }
+        }
+        dynamics.series(t, q, v, order)?;
+        self.decision.expanded = expanded;
+        Ok(())
+    }
+
+    /// Evaluates the equations a little after the moment, whose series `dynamics` holds up to `order`; whether they can be.
+    fn look_later(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        here: SwitchContext<'_, T>,
+        order: usize,
+    ) -> bool {
+        let EvaluationPoint { t, q, .. } = here.moment;
+        let later = T::from_f64(AHEAD * self.reach(dynamics, order, here.moment.allowed()));
+        let series = |row: &[T]| horner(&row[..=order], later);
+        let coordinates = 0..q.len();
+        let place = coordinates
+            .clone()
+            .map(|j| series(dynamics.position_series(j)));
+        let place: Vec<T> = place.collect();
+        let speed: Vec<T> = coordinates
+            .map(|j| series(dynamics.velocity_series(j)))
+            .collect();
+        self.decision.expanded = false;
+        dynamics.value(t + later, &place, &speed).is_ok()
     }
 
     /// Has bounds of undetermined forces read those of constraints that vanish at the instant as they begin, by the series that `dynamics` holds.
@@ -261,18 +316,7 @@ impl<T: Scalar> Decider<T> {
             return Ok(true);
         }
         let EvaluationPoint { t, q, v, .. } = here.moment;
-        let later = T::from_f64(AHEAD * self.reach(dynamics, order, here.moment.allowed()));
-        let series = |row: &[T]| horner(&row[..=order], later);
-        let coordinates = 0..q.len();
-        let place = coordinates
-            .clone()
-            .map(|j| series(dynamics.position_series(j)));
-        let place: Vec<T> = place.collect();
-        let speed: Vec<T> = coordinates
-            .map(|j| series(dynamics.velocity_series(j)))
-            .collect();
-        self.decision.expanded = false;
-        if dynamics.value(t + later, &place, &speed).is_ok() {
+        if self.look_later(dynamics, here, order) {
             self.redundant.look(dynamics);
             let fallen = |composite: &CompositeGuard| {
                 composite.value(&self.posed, &Reading::Values(dynamics)) < -KEPT

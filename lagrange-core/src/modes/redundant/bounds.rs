@@ -166,7 +166,7 @@ impl<T: Scalar> RedundantForces<T> {
         })
     }
 
-    /// Turns the planes that touch cones of frictions on constraints whose force vanishes at the instant, here and in `composites`: |λ| presses as λ begins.
+    /// Turns the planes that touch cones of frictions on several constraints whose forces vanish at the instant, here and in `composites`: |λ| presses as λ begins.
     /// `dynamics` holds the series of the instant, which are good for a time of `reach`; `nothing` says below which size the force that presses a
     /// friction is zero, and `unclear` below which part of what it changes by within the reach.
     pub fn press_as_forces_begin(
@@ -183,7 +183,7 @@ impl<T: Scalar> RedundantForces<T> {
                 continue;
             };
             let normal = d.frictions[f].normal;
-            if !matches!(normal, Normal::Constraint(_) | Normal::Resultant(_)) {
+            if !matches!(normal, Normal::Resultant(_)) {
                 continue;
             }
             let series: Vec<&[T]> = normal
