@@ -1,6 +1,6 @@
 //! Composite guards within a step: at some instants, and where margins may dip between them.
 
-use super::margins::Margins;
+use super::margins::{Margins, WIDE};
 use super::{ROOT, is_like_one_of};
 use crate::arithmetic::Scalar;
 use crate::modes::composite::CompositeGuard;
@@ -9,9 +9,6 @@ use core::ops::ControlFlow::{self, Break, Continue};
 
 /// Composite guards are also looked for at these parts of a step, at the second and each other one where the directions of forces do not turn.
 const WITHIN: [f64; 7] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875];
-
-/// Composite guards are watched from there on if they have come this near to zero, relative.
-const NEARBY: f64 = 0.5;
 
 /// What is looked for.
 #[derive(Clone, Copy)]
@@ -92,7 +89,7 @@ impl<T: Scalar> Run<T> {
     /// Notes by how much forces keep all bounds at this part of the step, at least, where they have been looked at; the composite guard that tells of it.
     fn note_margin(&self, part: f64, margins: &mut Margins) -> Option<CompositeGuard> {
         let redundant = &self.switcher.redundant;
-        let (margin, critical) = redundant.nearest(NEARBY);
+        let (margin, critical) = redundant.nearest(WIDE);
         margins.note(part, margin, redundant.values(), redundant.holds());
         critical
     }
