@@ -4,13 +4,16 @@
 //! that changes evenly, the margin is nowhere less than at both ends. It dips by no more than the values of the bounds bend, and by what frictions can hold
 //! the less where the force of a constraint that presses them changes its sign between two instants, or turns.
 //!
-//! Where directions of forces turn, those that jam may come to be allowed: the margin, which has fallen until then, is wide all at once. Between the instants it may
-//! have fallen on, below zero.
+//! Where directions of forces turn, those that jam may come to be allowed: the margin, which has been small until then, is wide all at once. Between the instants it
+//! may have fallen below zero.
 
 use crate::linear::direction::{dot, length};
 
 /// Composite guards are watched from there on if forces have come this near to their bounds, relative. No wider margins are told from one another.
 pub(super) const WIDE: f64 = 0.5;
+
+/// A margin that is expected below this share of a wide one, and is wide, has jumped.
+const SMOOTH: f64 = 0.5;
 
 /// Of so many instants in one step nothing more is learnt.
 const MOST: usize = 24;
@@ -80,19 +83,20 @@ impl Margins {
         let length = self.known[k + 1].part - self.known[k].part;
         let bends = [k.checked_sub(1), Some(k)].into_iter().flatten();
         let bend = bends.map(|first| self.bend(first)).fold(0.0, f64::max);
-        SAFETY * bend * length * length / 4.0 + self.turn(k) + self.fall(k)
+        SAFETY * bend * length * length / 4.0 + self.turn(k) + self.jump(k)
     }
 
-    /// How far the margin falls on between instants `k` and `k` + 1 as it does beside them, if it is wide at the other one of them.
-    fn fall(&self, k: usize) -> f64 {
-        let falls = |beside: Option<usize>, at: usize, other: usize| {
+    /// By how much the margin jumps between instants `k` and `k` + 1 from what it has come to beside them, if it is wide at the other one of them: before that it may
+    /// have fallen below zero.
+    fn jump(&self, k: usize) -> f64 {
+        let jumps = |beside: Option<usize>, at: usize, other: usize| {
             let [beside, at, other] = [&self.known[beside?], &self.known[at], &self.known[other]];
             let slope = (beside.least - at.least) / (beside.part - at.part);
-            let falls = slope * (other.part - at.part);
-            (at.least < WIDE && other.least >= WIDE).then_some(-falls)
+            let expected = at.least + slope * (other.part - at.part);
+            (other.least >= WIDE && expected < SMOOTH * WIDE).then_some(WIDE - expected)
         };
         let next = Some(k + 2).filter(|&next| next < self.known.len());
-        let both = [falls(k.checked_sub(1), k, k + 1), falls(next, k + 1, k)];
+        let both = [jumps(k.checked_sub(1), k, k + 1), jumps(next, k + 1, k)];
         both.into_iter().flatten().fold(0.0, f64::max)
     }
 

@@ -131,6 +131,7 @@ mod stretched;
 mod striking_rod;
 mod struck_slowly;
 mod tracks;
+mod trolley;
 mod turned_loads;
 mod turned_room;
 mod turntable;
