@@ -30,6 +30,7 @@ pub mod scene;
 pub mod scene_file;
 pub mod space;
 pub mod stability;
+mod straight;
 pub mod sweep;
 
 pub use program::Program;

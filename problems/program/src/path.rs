@@ -4,6 +4,7 @@
 //! already is not kept, so that a motion that goes round and round needs no more memory than its first rounds.
 
 use crate::space::Vector;
+use crate::straight::straightened;
 use core::hash::{BuildHasherDefault, Hasher};
 use std::collections::HashSet;
 
@@ -111,9 +112,8 @@ impl Path {
     /// Leaves out the points of its strokes that lie on the straight way from one to a later one.
     pub(crate) fn straighten(&mut self) {
         for stroke in &mut self.strokes {
-            let mut kept = vec![stroke[0]];
-            straightened(stroke, ROUND * self.cell, &mut kept);
-            *stroke = kept;
+            let place = |point: &Point| (point.time, point.at.into());
+            *stroke = straightened::<_, 3>(stroke, ROUND * self.cell, place);
         }
     }
 
@@ -204,25 +204,6 @@ impl Path {
             stroke.into_iter().for_each(|point| self.draw_to(point));
         }
         (self.end, self.drawing) = (end, drawing && self.drawing);
-    }
-}
-
-/// The points of a stroke after its first without which it would be off by more than this (Douglas & Peucker 1973).
-fn straightened(stroke: &[Point], off: f64, kept: &mut Vec<Point>) {
-    let [first, inner @ .., last] = stroke else {
-        return;
-    };
-    let away = |point: &Point| {
-        let part = (point.time - first.time) / (last.time - first.time);
-        (point.at - first.towards(last, part).at).amax()
-    };
-    let distances = inner.iter().map(away).enumerate();
-    match distances.max_by(|a, b| a.1.total_cmp(&b.1)) {
-        Some((i, distance)) if distance > off => {
-            straightened(&stroke[..=i + 1], off, kept);
-            straightened(&stroke[i + 1..], off, kept);
-        }
-        _ => kept.push(*last),
     }
 }
 

@@ -55,7 +55,7 @@ const CORE: [&str; 28] = [
 ];
 
 /// From the name of a scene to what is written of it; the lowest first.
-const PROGRAM: [&str; 28] = [
+const PROGRAM: [&str; 29] = [
     "closed_form",
     "number",
     "drawing",
@@ -65,6 +65,7 @@ const PROGRAM: [&str; 28] = [
     "progress",
     "stability",
     "space",
+    "straight",
     "path",
     "request",
     "scene",

@@ -4,6 +4,7 @@ use super::digits::told;
 use crate::outcome::{Outcome, Sample};
 use crate::report::picture::{Column, Place};
 use crate::report::plot::{CONSTANT, over_time};
+use crate::straight::straightened;
 use serde::Serialize;
 
 /// Points of a curve of its own: what lies in a column of a picture is seen as what it spans.
@@ -52,36 +53,12 @@ pub(super) fn fine(times: &[f64], curves: &[(&[Option<f64>], Lines)]) -> Vec<Opt
     curves.iter().map(fine).collect()
 }
 
-/// The points of a line without those that it passes, straight from the last to the next one that is kept, at no more than `off`.
-fn straightened(line: &[(f64, f64)], off: f64) -> Vec<(f64, f64)> {
-    const ANY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
-    let mut kept: Vec<(f64, f64)> = line.first().copied().into_iter().collect();
-    // Slopes with which all points after the last one that is kept are passed.
-    let mut slopes = ANY;
-    for pair in line.windows(2) {
-        let (before, (time, value)) = (pair[0], pair[1]);
-        let slope = |(from, start): (f64, f64), off: f64| (value + off - start) / (time - from);
-        let passes = |slopes: [f64; 2], from| (slopes[0]..=slopes[1]).contains(&slope(from, 0.0));
-        let mut from = kept[kept.len() - 1];
-        if !passes(slopes, from) {
-            kept.push(before);
-            (from, slopes) = (before, ANY);
-        }
-        slopes = [
-            slopes[0].max(slope(from, -off)),
-            slopes[1].min(slope(from, off)),
-        ];
-    }
-    kept.extend(line.get(1..).and_then(<[_]>::last));
-    kept
-}
-
 impl Fine {
     /// Lines one after the other, with no value between them, which may be off by so much.
     fn of(lines: &Lines, off: f64) -> Self {
         let points = lines.iter().flat_map(|line| {
             let end = line.last().map(|(time, _)| (*time, None));
-            let points = straightened(line, off).into_iter();
+            let points = straightened(line, off, |&(time, value)| (time, [value])).into_iter();
             let points = points.map(|(time, value)| (time, Some(value)));
             points.chain(end)
         });
