@@ -133,7 +133,7 @@ table! {
     PointHeld "E518" "this point cannot move in as many directions as it has coordinates" "the gap has no slope in the others: name the point by coordinates that move freely, as in `at x`, or leave `at` out where the gap is itself a distance";
     StrongerOneWay "E519" "this friction is stronger one way than the other, and at rest it has one strength" "one of a against a positive slip s and b against a negative one is `limit = (a + b)/2` beside `force(push: (b - a)/2 along s)`; a one-way clutch has a = 0";
 
-    NoInertia "E601" "the coordinate `{0}` has no inertia" "no kinetic energy contains `der({0})`, and no constraint ties it: add its kinetic energy, tie it with `constraint(name: der({0}) == …)`, or remove it";
+    NoInertia "E601" "the coordinate `{0}` has no inertia" "no kinetic energy is quadratic in `der({0})`, and no constraint ties it: add its kinetic energy, tie it with `constraint(name: der({0}) == …)`, or remove it";
     EquationCount "E602" "{0} equations for {1} unknowns" "{2}";
     Redundant "E603" "`{0}` says nothing that {1} does not say already" "take one of them away: their forces cannot be told apart";
     Contradiction "E604" "`{0}` cannot hold together with {1}" "they restrict the same motion in two ways: take one away";
