@@ -202,8 +202,7 @@ impl<T: Scalar> Decider<T> {
         for order in [LOW_ORDER.min(moment.order), moment.order] {
             dynamics.series(t, q, v, order)?;
             self.decision.expanded = serves && order == moment.order;
-            self.take_signs_that_begin(dynamics, here, order)?;
-            self.press_as_forces_begin(dynamics, here, order);
+            self.press_as_forces_begin(dynamics, here, order)?;
             let mut goes_on = self.judge(dynamics, here, order);
             if goes_on == Some(false) && self.doubts_branches(dynamics, here, order)? {
                 self.zeros.truncate(settled);
@@ -222,24 +221,51 @@ impl<T: Scalar> Decider<T> {
         self.keeps_bounds_later(dynamics, here, moment.order)
     }
 
-    /// Where the force of a constraint that presses a friction which sticks vanishes at the instant, and is not determined, it presses with the sign that it has a
-    /// little later: how forces can share what comes follows from that. `dynamics` holds the series of the moment, and its values, also afterwards.
+    /// Has bounds of undetermined forces read those of constraints that vanish at the instant as they begin, by the series that `dynamics` holds, also afterwards.
+    fn press_as_forces_begin(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        here: SwitchContext<'_, T>,
+        order: usize,
+    ) -> Result<(), EvaluationError> {
+        if self.composites.is_empty() {
+            return Ok(());
+        }
+        let reach = self.reach(dynamics, order, here.moment.allowed());
+        let unclear = unclear_part(here.moment.tolerance);
+        let nothing = |sizes: &Sizes, dynamics: &Dynamics<T>, f: usize| {
+            1e3 * here.blur() * sizes.of(Guard::NormalForceSign(f), dynamics)
+        };
+        let zero = |f: usize| nothing(&self.sizes, dynamics, f);
+        if self.redundant.has_unknown_signs(dynamics, zero) {
+            self.take_signs_that_begin(dynamics, here, order)?;
+        }
+        let Self {
+            redundant,
+            composites,
+            sizes,
+            ..
+        } = self;
+        let zero = |f: usize| nothing(sizes, dynamics, f);
+        redundant.press_as_forces_begin(composites, dynamics, reach, unclear, zero);
+        Ok(())
+    }
+
+    /// Where the force of a constraint that presses a friction vanishes at the instant, and is not determined, it presses with the sign that it has a little
+    /// later: how forces can share what comes follows from that. `dynamics` holds the series of the moment, and its values, also afterwards.
     fn take_signs_that_begin(
         &mut self,
         dynamics: &mut Dynamics<T>,
         here: SwitchContext<'_, T>,
         order: usize,
     ) -> Result<(), EvaluationError> {
-        if self.composites.is_empty() || !self.redundant.has_unknown_signs(dynamics) {
-            return Ok(());
-        }
         let EvaluationPoint { t, q, v, .. } = here.moment;
         let expanded = self.decision.expanded;
         let known = self.look_later(dynamics, here, order);
         let turns = known && self.redundant.take_signs_of_later(dynamics);
         dynamics.value(t, q, v)?;
+        self.redundant.follow(dynamics);
         if turns {
-            self.redundant.follow(dynamics);
             self.composites.clear();
             match self.redundant.critical(BORDER) {
                 Some(composite) => self.composites.push(composite),
@@ -274,31 +300,6 @@ impl<T: Scalar> Decider<T> {
             .collect();
         self.decision.expanded = false;
         dynamics.value(t + later, &place, &speed).is_ok()
-    }
-
-    /// Has bounds of undetermined forces read those of constraints that vanish at the instant as they begin, by the series that `dynamics` holds.
-    fn press_as_forces_begin(
-        &mut self,
-        dynamics: &Dynamics<T>,
-        here: SwitchContext<'_, T>,
-        order: usize,
-    ) {
-        if self.composites.is_empty() {
-            return;
-        }
-        let reach = self.reach(dynamics, order, here.moment.allowed());
-        let Self {
-            redundant,
-            composites,
-            sizes,
-            ..
-        } = self;
-        let nothing = |f: usize| {
-            let size = sizes.of(Guard::NormalForceSign(f), dynamics);
-            1e3 * here.blur() * size
-        };
-        let unclear = unclear_part(here.moment.tolerance);
-        redundant.press_as_forces_begin(composites, dynamics, reach, unclear, nothing);
     }
 
     /// Whether undetermined forces keep all bounds a little later as well, where their rows change: how they can share a load is then another

@@ -166,9 +166,40 @@ impl<T: Scalar> RedundantForces<T> {
         })
     }
 
-    /// Turns the planes that touch cones of frictions on several constraints whose forces vanish at the instant, here and in `composites`: |λ| presses as λ begins.
-    /// `dynamics` holds the series of the instant, which are good for a time of `reach`; `nothing` says below which size the force that presses a
-    /// friction is zero, and `unclear` below which part of what it changes by within the reach.
+    /// Whether a friction that sticks is pressed by a constraint whose force is open, and that of least norm, which would say its sign, vanishes at the instant:
+    /// `nothing` says below which size it does.
+    pub fn has_unknown_signs(
+        &self,
+        dynamics: &Dynamics<T>,
+        nothing: impl Fn(usize) -> f64,
+    ) -> bool {
+        let acting = dynamics.acting_rows();
+        self.bounds.list.iter().any(|bound| {
+            let Guard::StickCone(f) = bound.guard else {
+                return false;
+            };
+            let row = self.open_row(f, dynamics);
+            let force = row.and_then(|row| acting.binary_search(&row).ok());
+            force.is_some_and(|k| {
+                let vanishes = self.least.forces[k].value().abs() <= nothing(f);
+                vanishes || self.sign_of_least(k).is_none()
+            })
+        })
+    }
+
+    /// The row of the constraint that presses friction `f`, if its force is open: its sign is a choice.
+    fn open_row(&self, f: usize, dynamics: &Dynamics<T>) -> Option<usize> {
+        let d = dynamics.description();
+        match d.frictions[f].normal {
+            Normal::Constraint(on) => Some(d.constraints[on].row),
+            _ => None,
+        }
+        .filter(|&row| self.leaves_open(dynamics, row))
+    }
+
+    /// Turns the planes that touch cones of frictions on constraints whose force vanishes at the instant, here and in `composites`: |λ| presses as λ begins. Signs of
+    /// open forces are choices, and stay. `dynamics` holds the series of the instant, which are good for a time of `reach`; `nothing` says below which size the
+    /// force that presses a friction is zero, and `unclear` below which part of what it changes by within the reach.
     pub fn press_as_forces_begin(
         &mut self,
         composites: &mut [CompositeGuard],
@@ -178,14 +209,16 @@ impl<T: Scalar> RedundantForces<T> {
         nothing: impl Fn(usize) -> f64,
     ) {
         let d = dynamics.description();
-        for bound in &mut self.bounds.list {
-            let Guard::StickCone(f) = bound.guard else {
+        for k in 0..self.bounds.list.len() {
+            let Guard::StickCone(f) = self.bounds.list[k].guard else {
                 continue;
             };
             let normal = d.frictions[f].normal;
-            if !matches!(normal, Normal::Resultant(_)) {
+            let presses = matches!(normal, Normal::Constraint(_) | Normal::Resultant(_));
+            if !presses || self.open_row(f, dynamics).is_some() {
                 continue;
             }
+            let bound = &mut self.bounds.list[k];
             let series: Vec<&[T]> = normal
                 .rows(d)
                 .map(|row| dynamics.force_series(row))

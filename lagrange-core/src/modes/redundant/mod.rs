@@ -195,21 +195,6 @@ impl<T: Scalar> RedundantForces<T> {
         (force.abs() > ROUNDING * largest).then(|| force.signum())
     }
 
-    /// Whether the force of a constraint that presses a friction which sticks is open, and that of least norm, which would say its sign, vanishes.
-    pub fn has_unknown_signs(&self, dynamics: &Dynamics<T>) -> bool {
-        let d = dynamics.description();
-        let acting = dynamics.acting_rows();
-        self.bounds.list.iter().any(|bound| match bound.guard {
-            Guard::StickCone(f) => matches!(
-                d.frictions[f].normal,
-                Normal::Constraint(on) if acting
-                    .binary_search(&d.constraints[on].row)
-                    .is_ok_and(|k| self.sign_of_least(k).is_none())
-            ),
-            _ => false,
-        })
-    }
-
     /// Chooses the signs of constraint forces as [`Self::look`] does at the last value of `dynamics`, a little after the instant; whether they are others.
     pub fn take_signs_of_later(&mut self, dynamics: &mut Dynamics<T>) -> bool {
         let (signs, directions) = (self.signs.clone(), self.directions.clone());
