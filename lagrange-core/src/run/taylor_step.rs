@@ -66,7 +66,7 @@ impl<T: Scalar> Run<T> {
         let mut closer = 0;
         let (mut corrections, mut shortened, mut missed) = (0, 0, 0);
         let mut jumps = false;
-        let mut careful = self.settings.careful && self.begins_phase();
+        let mut careful = self.settings.careful && self.begins_polynomial(moves);
         loop {
             self.expand()?;
             self.write_polynomial(h, order);
@@ -111,8 +111,7 @@ impl<T: Scalar> Run<T> {
                     hit => return Ok(hit),
                 }
             }
-            // Steps may be the same at all tolerances, as those of a polynomial are and those that guards or the ends of phases bound: a careful run differs from
-            // another by one more step.
+            // Exact in any step, a careful run differs from another by rounding only: by that of one more step.
             let part = CAREFUL * end * h;
             if core::mem::take(&mut careful) && part > self.resolution(h) {
                 h = part;
@@ -242,11 +241,13 @@ impl<T: Scalar> Run<T> {
         }
     }
 
-    /// Whether the step is the first one of a phase. Flights between impacts that shrink do not count:
+    /// Whether the step is the first one of a phase whose motion allows any step, as a polynomial does. Flights between impacts that shrink do not count:
     /// these forget what rounding has made of the motion, and rounding in the middle of one that hardly rises would say when it ends.
-    fn begins_phase(&self) -> bool {
+    fn begins_polynomial(&self, moves: f64) -> bool {
         let mut contacts = 0..self.switcher.impacts.len();
-        self.stepper.resolution.longest() == 0.0 && !contacts.any(|c| self.bounces(c))
+        moves >= self.end - self.now.t.value()
+            && self.stepper.resolution.longest() == 0.0
+            && !contacts.any(|c| self.bounces(c))
     }
 
     /// What ends the step, at the root of the guard itself where that of its polynomial is farther from it than rounding: the motion may be a polynomial and
