@@ -70,8 +70,8 @@ impl<T: Scalar> Run<T> {
         Ok(true)
     }
 
-    /// Whether nothing has fallen at part `end` of the step, where the motion is now, but slips that rows drive, and that turn before zero: a follower that comes to
-    /// rest on its cam as smoothly as (1 − t)² seems to turn back before, by what the step has left of the rates of rows. These go on.
+    /// Whether nothing has fallen at part `end` of the step, where the motion is now, but slips that turn before zero once what the step has left of the rates of
+    /// rows is taken away: a follower that comes to rest on its cam as smoothly as (1 − t)² seems to turn back before. These go on.
     pub(super) fn only_residuals_fall(&mut self, end: f64) -> bool {
         let polynomials = &self.locator.polynomials;
         let slips = |&guard: &Guard| {
@@ -119,6 +119,8 @@ impl<T: Scalar> Run<T> {
                 self.let_pass(f);
             }
         }
+        self.now.outdate();
+        self.ask_for_guards();
         true
     }
 

@@ -31,7 +31,7 @@ const RISE: f64 = 0.5;
 /// π/2, and a quotient that has not been felt until then, as sin(x)/x, never is.
 const LEAST: f64 = f64::EPSILON;
 
-/// A root of positions of what changes by less than this share over a step, by its first two rates, is looked at no closer.
+/// What is divided by, or a root of positions is taken of, and changes by less than this share over a step, by its first two rates, is looked at no closer.
 const FAR: f64 = 0.9;
 
 /// Lower powers grow by no more than a series of a loose tolerance follows.
@@ -399,7 +399,9 @@ impl Argument {
                 *largest = largest.max(size);
                 if *exponent < 0.0 {
                     let least = size * *growth;
-                    let is_near = size - change < least && least > LEAST * *largest;
+                    let nearest = size - change;
+                    let is_near =
+                        nearest < least.max((1.0 - FAR) * size) && least > LEAST * *largest;
                     is_near.then_some(Border::Least(least))
                 } else {
                     let scale = if *largest > 0.0 { *largest } else { 1.0 };

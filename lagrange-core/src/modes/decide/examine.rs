@@ -267,12 +267,11 @@ impl<T: Scalar> Decider<T> {
         self.redundant.follow(dynamics);
         if turns {
             self.composites.clear();
-            match self.redundant.critical(BORDER) {
-                Some(composite) => self.composites.push(composite),
-                None => {
-                    let composite = |(guard, _): &(Guard, usize)| *guard == Guard::Composite(0);
-                    self.questions.retain(|question| !composite(question));
-                }
+            let composite = |&(guard, _): &(Guard, usize)| guard == Guard::Composite(0);
+            self.questions.retain(|question| !composite(question));
+            if let Some(composite) = self.redundant.critical(BORDER) {
+                self.composites.push(composite);
+                self.questions.push((Guard::Composite(0), 0));
             }
         }
         dynamics.series(t, q, v, order)?;
